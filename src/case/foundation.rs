@@ -2,7 +2,7 @@
 //!
 //! Some cases *prove* a foundation (`proves = ["spheres"]`). Others rest on foundations: those their file names
 //! (`rests-on`), and those that follow from what they ask and from their scene. A case whose foundation has been
-//! found broken is blocked by it, not failed: its own result would blame the wrong line.
+//! found broken may pass on it all the same; if not it is blocked, and not failed: that would blame the wrong line.
 
 use super::{Case, Subject};
 use crate::contract::{Capabilities, Components};

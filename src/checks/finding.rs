@@ -425,9 +425,12 @@ impl Finding {
         self.hypotheses().map(|hypothesis| hypothesis.false_alarm).sum()
     }
 
-    /// Whether no light is expected anywhere: a core that finds nothing gives as much.
+    /// Whether no light is expected and none is there: a core that finds nothing gives as much. Differences of light that is
+    /// there are not exactly 0.
     pub(crate) fn is_of_darkness(&self) -> bool {
-        let is_dark = |measure: &Measure| measure.channel.is_some() && measure.expected == 0.0;
+        let is_dark = |measure: &Measure| {
+            measure.channel.is_some() && measure.expected == 0.0 && measure.measured == 0.0
+        };
         !self.measures.is_empty() && self.measures.iter().all(is_dark)
     }
 

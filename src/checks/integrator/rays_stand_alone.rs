@@ -2,7 +2,7 @@
 //! in waves, packets or arrays, mix them up where a mask or an index is that of another ray; along equal rays nobody sees
 //! it.
 
-use super::estimate::{RayEntry, RouletteEntry, estimate, settings};
+use super::estimate::{RayEntry, RouletteEntry, estimate, needs, settings};
 use super::estimators_agree::{relative, statement};
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{
@@ -29,23 +29,19 @@ check! {
     }
     name: "rays-stand-alone",
     summary: "the mean along a ray, whatever rays are asked beside it",
-    needs: BUILD_SCENE | RADIANCE,
 }
 
 impl Check for RaysStandAlone {
     fn needs_besides(&self) -> Capabilities {
-        self.roulette.map_or(Capabilities::empty(), |_| Capabilities::ROULETTE)
+        needs(&self.settings())
     }
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
         let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
-        let settings = IntegratorSettings {
-            roulette: self.roulette.map(Roulette::from),
-            ..settings(self.bounces.0, DirectSampling::Lights)
-        };
-        let mut asked = Asked { scene: built.as_mut(), rays: self.rays(), settings: &settings };
+        let rays = self.ray.iter().map(|entry| entry.ray()).collect();
+        let mut asked = Asked { scene: built.as_mut(), rays, settings: self.settings() };
         let scale = asked.alone(seed.child("scale"), SCALE_SAMPLES)?;
         let is_lit = |number: &usize| scale[*number] != 0.0;
         let lit: Vec<_> = (0..scale.len()).filter(is_lit).collect();
@@ -64,15 +60,21 @@ impl Check for RaysStandAlone {
             relative(measure.of_channel(channel).of_row(&row), scale[*number])
         });
         let measures: Vec<_> = measures.collect();
-        let passing = format!("{} rays have the same mean beside each other", self.ray.len());
+        let passing = match lit.is_empty() {
+            true => "there is no light along any of the rays".to_owned(),
+            false => format!("{} rays have the same mean beside each other", self.ray.len()),
+        };
         let wrong = "rays that are asked together do not have their own light";
         Ok(Finding::measured(statement(wrong, passing, &measures), measures))
     }
 }
 
 impl RaysStandAlone {
-    fn rays(&self) -> Vec<Ray> {
-        self.ray.iter().map(|entry| entry.ray()).collect()
+    fn settings(&self) -> IntegratorSettings {
+        IntegratorSettings {
+            roulette: self.roulette.map(Roulette::from),
+            ..settings(self.bounces.0, DirectSampling::Lights)
+        }
     }
 }
 
@@ -80,7 +82,7 @@ impl RaysStandAlone {
 struct Asked<'a> {
     scene: &'a mut dyn BuiltScene,
     rays: Vec<Ray>,
-    settings: &'a IntegratorSettings,
+    settings: IntegratorSettings,
 }
 
 impl Asked<'_> {
@@ -89,7 +91,7 @@ impl Asked<'_> {
         let mut means = Vec::new();
         for (number, ray) in self.rays.clone().into_iter().enumerate() {
             let seed = seed.child(number);
-            means.extend(estimate(self.scene, ray, self.settings, seed, samples)?.mean);
+            means.extend(estimate(self.scene, ray, &self.settings, seed, samples)?.mean);
         }
         Ok(means)
     }

@@ -102,7 +102,7 @@ fn score(view: &View<'_>) -> Markup {
     }
 }
 
-/// Why trials were not tried: how many for each reason.
+/// Why trials were not judged: how many for each reason.
 fn untried(view: &View<'_>) -> Markup {
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     for trial in view.tree.graded() {
@@ -116,7 +116,7 @@ fn untried(view: &View<'_>) -> Markup {
     html! {
         @if !reasons.is_empty() {
             details.rest {
-                summary { "why these were not tried" }
+                summary { "why these were not judged" }
                 ul { @for (reason, number) in &reasons { li { (reason) span.number { (number) } } } }
             }
         }

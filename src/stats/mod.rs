@@ -41,5 +41,6 @@ pub(crate) use test::{
     Compared, CorrelationReport, CountDoubt, CountReport, CountSource, ErrorLevel, ExactReport,
     MeanReport, RareReport, Rarity, ReportedVariance, Sampling, ShareReport, SlopeReport,
     Tolerance, TwoVariances, batch_size, follows_law, judge_count_source, judge_counts,
-    judge_exact, judge_means, judge_rare, judge_share, judge_slope, judge_uncorrelated, timing,
+    judge_exact, judge_means, judge_most_related, judge_rare, judge_share, judge_slope,
+    judge_uncorrelated, timing,
 };

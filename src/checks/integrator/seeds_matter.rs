@@ -7,7 +7,7 @@ use crate::checks::rendering::Rendering;
 use crate::checks::{Check, Context, Finding, Measure, Result, check};
 use crate::contract::{Acceleration, Capabilities, Film, Roulette};
 use crate::image::luminance;
-use crate::stats::{CorrelationReport, Verdict, judge_uncorrelated};
+use crate::stats::{CorrelationReport, Verdict, judge_most_related, judge_uncorrelated};
 use crate::text::number::figure;
 use crate::text::{Between, Bounces, Size};
 use rayon::prelude::*;
@@ -107,21 +107,17 @@ fn correlations(films: &[Film]) -> Vec<(String, CorrelationReport)> {
 }
 
 /// Streams that are numbered by column + row · height repeat where a film is wide, and tiles of noise at every tile:
-/// of all steps the one whose pixels are most alike. Chance is given seven standard errors, which leaves it one in
-/// 10⁸ for all steps of such a film together.
+/// of all steps the one whose pixels are most alike.
 fn most_alike(noise: &[Signs]) -> Option<(String, CorrelationReport)> {
     let [width, height] = noise.first()?.size;
     let steps = (0..height).flat_map(|y| (1 - width..width).map(move |x| [x, y]));
     let further: Vec<_> = steps.filter(|[x, y]| (*y, *x) > (0, 1) && [*x, *y] != [0, 1]).collect();
-    let reports = further.into_par_iter().map(|step| (step, apart(noise, step)));
-    let said = reports.filter(|(_, report)| report.verdict != Verdict::Inconclusive);
-    let excess = |report: &CorrelationReport| report.coefficient.abs() / report.limit;
-    let most = said.max_by(|(_, a), (_, b)| excess(a).total_cmp(&excess(b)));
+    let reports: Vec<_> = further.into_par_iter().map(|step| (step, apart(noise, step))).collect();
     let direction = |[x, y]: [i32; 2]| {
         let side = if x < 0 { "left" } else { "right" };
         format!("{y} down and {} to the {side}", x.abs())
     };
-    most.map(|(step, report)| (direction(step), report))
+    judge_most_related(reports).map(|(step, report)| (direction(step), report))
 }
 
 /// Correlation of the signs of the noise of pixels that are `step` apart: columns, to either side, and rows down.

@@ -11,7 +11,7 @@ mod share;
 mod slope;
 pub(crate) mod timing;
 
-pub(crate) use correlation::{CorrelationReport, judge_uncorrelated};
+pub(crate) use correlation::{CorrelationReport, judge_most_related, judge_uncorrelated};
 pub(crate) use counts::{
     CountDoubt, CountReport, CountSource, batch_size, follows_law, judge_count_source, judge_counts,
 };

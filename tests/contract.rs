@@ -2,10 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use furnace::contract::Capabilities;
 use furnace::contract::abi;
 use furnace::contract::crossing::{Layout, Part};
 use furnace::contract::question::{QUESTIONS, Question};
+use furnace::contract::{Capabilities, Components};
 use regex_lite::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -80,9 +80,15 @@ fn the_header_has_the_functions_of_the_table_in_its_order() {
 #[test]
 fn python_has_the_methods_of_the_table() {
     let core = read("adapters/python/furnace_core/core.py");
-    let pattern = r#"@question\("([\w-]+)",( tells_stats=True,|) (\w+)="([\w-]+)"\)\s+def (\w+)"#;
-    let declared: Vec<[String; 5]> = found(pattern, &core);
-    let words = |[capability, stats, name, element, method]: [String; 5]| {
+    let pattern = r#"@question\("([\w-]+)",( "[\w-]+",|)( tells_stats=True,|) (\w+)="([\w-]+)"\)\s+def (\w+)"#;
+    let declared: Vec<[String; 6]> = found(pattern, &core);
+    let components = declared.iter().map(|[_, component, ..]| component.trim_matches([' ', ',']));
+    let components: BTreeSet<_> = components.filter(|component| !component.is_empty()).collect();
+    let listed = format!("[{}]", Vec::from_iter(components.iter().copied()).join(","));
+    assert!(
+        serde_json::from_str::<Components>(&listed).unwrap().iter().count() == components.len()
+    );
+    let words = |[capability, _, stats, name, element, method]: [String; 6]| {
         (method, capability, name, element, !stats.is_empty())
     };
     let declared: BTreeSet<_> = declared.into_iter().map(words).collect();

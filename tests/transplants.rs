@@ -13,6 +13,7 @@ use furnace::run::{Plan, Request, Status, TrialRecord, run_in_memory};
 use furnace::stats::Budget;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use support::{compile_core, cpp_compiler, root};
 
 fn plan(core: &str, filters: &[&str]) -> Plan {
@@ -151,4 +152,52 @@ fn what_a_core_lacks_is_skipped_whatever_else_is_broken() {
         "the core has no build-scene, radiance, isolated-bounces"
     );
     assert_eq!(subjects(&records, Status::Blocked), BTreeSet::new());
+}
+
+/// The core of `tests/fixtures/python` that is wrong so, if there is a Python for it.
+fn lit(wrong: &str) -> Option<String> {
+    let python = std::env::var("FURNACE_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let imports = Command::new(&python).args(["-c", "import numpy, furnace_core"]).output();
+    if !imports.is_ok_and(|output| output.status.success()) {
+        eprintln!(
+            "skipped: `{python}` has no numpy and furnace_core; see adapters/python/README.md"
+        );
+        return None;
+    }
+    let [script, example] =
+        ["tests/fixtures/python/lit.py", "examples/python"].map(|path| root().join(path));
+    Some(format!("exec: {python} '{}' '{}' {wrong}", script.display(), example.display()))
+}
+
+/// What a core of `diffuse` surfaces and point lights is asked.
+const LIT: &[&str] = &["camera/", "bsdf/diffuse", "light/point-light"];
+
+#[test]
+fn a_core_in_python_takes_components() {
+    let Some(right) = lit("nothing") else { return };
+    for taken in [Components::CAMERA, Components::TRAVERSAL, Components::LIGHT_SAMPLING] {
+        let records = run_in_memory(&plan(&right, &["light/point-light"]).taking(taken));
+        let passed = records.iter().filter(|it| it.outcome.status() == Status::Pass).count();
+        assert!(passed >= 2, "{taken:?}: {:?}", told(&records));
+    }
+    let records = run_in_memory(&plan(&lit("bsdf").unwrap(), LIT));
+    assert_eq!(subjects(&records, Status::Fail), ["bsdf"].into(), "{:?}", told(&records));
+    assert_eq!(subjects(&records, Status::Blocked), BTreeSet::new(), "{:?}", told(&records));
+    assert!(records.iter().filter(|record| record.with.contains(Components::BSDF)).count() >= 2);
+}
+
+#[test]
+fn what_a_core_in_python_does_not_ask_for_is_its_own() {
+    let Some(unasked) = lit("bsdf-unasked") else { return };
+    let records = run_in_memory(&plan(&unasked, LIT));
+    assert_eq!(subjects(&records, Status::Fail), ["bsdf"].into(), "{:?}", told(&records));
+    assert!(subjects(&records, Status::Blocked).contains("light"), "{:?}", told(&records));
+    // Nor does the bench lend what it has not told a core to take.
+    let forward = plan(&lit("forward").unwrap(), &["light/point-light"]).taking(Components::BSDF);
+    let words = told(&run_in_memory(&forward)).concat();
+    assert!(words.contains("it asked the bench for `radiance`"), "{words}");
+}
+
+fn told(records: &[TrialRecord]) -> Vec<String> {
+    records.iter().map(|it| format!("{}: {}\n", it.case, it.outcome.statement())).collect()
 }

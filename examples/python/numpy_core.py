@@ -48,6 +48,7 @@ class NumPy(Core):
 
     name, version = "numpy", "1.0"
     traits = {"brute-force", "traversal-stats", "deterministic"}
+    takes = {"camera", "traversal"}
     built = Scene
 
     def generate_rays(self, camera, film):

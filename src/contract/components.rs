@@ -81,6 +81,23 @@ impl Components {
         parts.intersects(one)
     }
 
+    /// Those that a request of the protocol asks for, any of them where bounces say which.
+    pub(crate) fn of_request(name: &str) -> Self {
+        match name {
+            "generate-rays" => Self::CAMERA,
+            "intersect-triangle" => Self::TRIANGLE_TEST,
+            "intersect-sphere" => Self::SPHERE_TEST,
+            "intersect-box" => Self::BOX_TEST,
+            "intersect" | "occluded" => Self::TRAVERSAL,
+            "sample-direction" | "direction-pdf" => Self::DIRECTION_SAMPLING,
+            "eval-bsdf" | "sample-bsdf" => Self::BSDF,
+            "sample-light" => Self::LIGHT_SAMPLING,
+            "radiance" => Self::EMISSION | Self::DIRECT_LIGHTING | Self::PATH,
+            "render" | "adaptive-mean" => Self::PIXEL,
+            _ => Self::empty(),
+        }
+    }
+
     /// All that come before one.
     fn below(self) -> Self {
         Self::from_bits_truncate(self.bits() - 1)

@@ -20,6 +20,8 @@ use super::crossing::Part;
 pub struct Question {
     /// The method of [`super::Core`] or [`super::BuiltScene`].
     pub method: &'static str,
+    /// Whether it is asked of a scene that has been built.
+    pub within_scene: bool,
     /// The functions of `furnace_core.h` that answer it, which are the words of its requests too.
     pub in_c: &'static [&'static str],
     /// What a core declares that answers it.
@@ -30,6 +32,11 @@ pub struct Question {
     pub answer: (&'static str, &'static [Part]),
     /// The type of what is told besides.
     pub told: &'static str,
+}
+
+/// Whether requests of this name come while there is a scene.
+pub(crate) fn is_within_a_scene(request: &str) -> bool {
+    QUESTIONS.iter().any(|it| it.within_scene && it.requests().iter().any(|name| name == request))
 }
 
 impl Question {
@@ -49,6 +56,7 @@ macro_rules! list {
         /// Every question, in the order of `furnace_core.h`.
         pub static QUESTIONS: &[Question] = &[$($(Question {
             method: stringify!($method),
+            within_scene: within_scene!($kind),
             in_c: names!($c),
             capability: Capabilities::$can,
             arguments: &[$((stringify!($arg), <$ty as Argument<'_>>::PARTS)),*],
@@ -58,6 +66,14 @@ macro_rules! list {
     };
 }
 
+macro_rules! within_scene {
+    (Scene) => {
+        true
+    };
+    ($other:ident) => {
+        false
+    };
+}
 macro_rules! names {
     (($($c:ident: $type:ident),*)) => { &[$(stringify!($c)),*] };
 }

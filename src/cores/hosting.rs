@@ -3,7 +3,7 @@
 use super::CoreSpec;
 use super::dylib::LoadError;
 use super::remote::Remote;
-use crate::contract::Core;
+use crate::contract::{Components, Core};
 use crate::worker::{
     Confinement, CoreOrigin, CpuClock, Launch, Limits, Patience, StartError, WorkerSpec,
 };
@@ -136,6 +136,14 @@ impl Hosted {
         match self {
             Self::Here(_) => CpuClock::default(),
             Self::Away(remote) => remote.clock(),
+        }
+    }
+
+    /// What a program was told to take of the bench's, and has never asked for; nothing is known of other cores.
+    pub(crate) fn unasked(&self) -> Components {
+        match self {
+            Self::Here(_) => Components::empty(),
+            Self::Away(remote) => remote.unasked(),
         }
     }
 

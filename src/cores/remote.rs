@@ -6,9 +6,12 @@
 use crate::contract::answer::Answer as Filled;
 use crate::contract::question::*;
 use crate::contract::{Acceleration, BuildStats, Built, BuiltScene, Components, Core, CoreInfo};
+use crate::cores::textbook::variant;
 use crate::worker::message::{Answer, Request, Told, Wanted};
 use crate::worker::narrow::narrow;
-use crate::worker::{Confinement, CpuClock, Launch, StartError, Worker, build_request};
+use crate::worker::{
+    Confinement, CoreOrigin, CpuClock, Launch, Lender, StartError, Worker, build_request,
+};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -19,8 +22,8 @@ const SEARCH: Duration = Duration::from_secs(10);
 pub struct Remote {
     launch: Launch,
     worker: Worker,
-    /// What made it take components of the bench, for workers that have to take them again.
-    taken: Option<Request<'static>>,
+    /// What it takes of the bench's, for workers that have to take it again.
+    taken: Components,
     /// What built the scene that there is, for workers that have to build it again.
     built: Option<Request<'static>>,
 }
@@ -34,7 +37,7 @@ impl Remote {
         Ok(Self {
             launch: launch.clone(),
             worker: Worker::start(launch)?,
-            taken: None,
+            taken: Components::empty(),
             built: None,
         })
     }
@@ -47,6 +50,11 @@ impl Remote {
     /// CPU time of its process while the core answers.
     pub(crate) fn clock(&self) -> CpuClock {
         self.worker.clock()
+    }
+
+    /// What it was told to take of the bench's, and has never asked for.
+    pub(crate) fn unasked(&self) -> Components {
+        self.worker.unasked()
     }
 
     /// What it has printed.
@@ -105,8 +113,10 @@ impl Remote {
     /// Whether a fresh worker dies of a part of the batch.
     fn dies_of(&self, request: &Request<'_>, wanted: &[Wanted<'_>], range: &Range<usize>) -> bool {
         let Ok(mut worker) = Worker::start(&self.launch) else { return false };
-        let mut earlier = self.taken.iter().chain(&self.built);
-        if earlier.any(|request| worker.ask(request, &mut []).is_err()) {
+        if !self.taken.is_empty() && take(&mut worker, &self.launch, self.taken).is_err() {
+            return false;
+        }
+        if self.built.iter().any(|request| worker.ask(request, &mut []).is_err()) {
             return false;
         }
         let memory = |array: &Wanted<'_>| vec![0; array.size_of_one() * range.len()];
@@ -117,6 +127,17 @@ impl Remote {
         let answer = worker.ask(&request.part(range), &mut answers);
         matches!(answer, Err(CoreError::Crashed { .. }))
     }
+}
+
+/// Has a core take components of the bench. A library finds them in its own process; a program asks for what they answer.
+fn take(worker: &mut Worker, launch: &Launch, components: Components) -> Result<()> {
+    if matches!(launch.worker.origin, CoreOrigin::Program(_)) {
+        let conventions = worker.info().conventions;
+        let lender = Lender::start(components, move || variant::following(conventions));
+        worker.lend(lender.map_err(|error| CoreError::Refused(error.to_string()))?);
+    }
+    let request = Request::new("take_components").with("components", components);
+    worker.ask(&request, &mut []).map(drop)
 }
 
 /// Sends a question, and fills its answer with what comes back.
@@ -139,9 +160,8 @@ impl Core for Remote {
     }
 
     fn take_components(&mut self, components: Components) -> Result<()> {
-        let request = Request::new("take_components").with("components", components);
-        self.worker.ask(&request, &mut [])?;
-        self.taken = Some(request);
+        take(&mut self.worker, &self.launch, components)?;
+        self.taken = components;
         Ok(())
     }
 

@@ -42,16 +42,24 @@ pub(crate) fn run_transplanted(bench: &Bench, trial: &Trial, transplant: Transpl
     let Transplant { with, by, or_as_it_is } = transplant;
     let takes = bench.info(&trial.core).map_or(Components::empty(), |core| core.components);
     match with.within(takes) {
-        Some(with) if !asked_about(&trial.case).intersects(with) => run_with(bench, trial, with),
+        Some(with) if !asked_about(&trial.case).intersects(with) => {
+            let (ended, own) = run_taking(bench, trial, with);
+            if own.is_empty() { ended } else { with_own_below(bench, trial, ended, by) }
+        }
         _ if or_as_it_is => run_on_what_is_broken(bench, trial, with.intersection(takes), by),
         _ => untried(bench, trial, by),
     }
 }
 
-/// Runs one trial though some of what it rests on is broken and stays, `with` the rest from the bench. What passes all the
-/// same is right; what does not may have failed for what is broken, and is blocked.
+/// Runs one trial though some of what it rests on is broken and stays, `with` the rest from the bench.
 fn run_on_what_is_broken(bench: &Bench, trial: &Trial, with: Components, by: String) -> Ended {
     let ended = run_with(bench, trial, with - asked_about(&trial.case));
+    with_own_below(bench, trial, ended, by)
+}
+
+/// What came of a trial on something of the core's own that is broken. What passes all the same is right; what does not may
+/// have failed for what is broken, and is blocked.
+fn with_own_below(bench: &Bench, trial: &Trial, ended: Ended, by: String) -> Ended {
     let outcome = &ended.record.outcome;
     let counts = match outcome.status() {
         Status::Pass => !outcome.finding().is_some_and(Finding::is_of_darkness),
@@ -67,8 +75,14 @@ fn run_on_what_is_broken(bench: &Bench, trial: &Trial, with: Components, by: Str
 
 /// Runs one trial with components of the bench.
 pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended {
+    run_taking(bench, trial, with).0
+}
+
+/// The same; and where that failed, what it rests on that the core was told to take and never asked for. It may have failed
+/// for its own.
+pub(super) fn run_taking(bench: &Bench, trial: &Trial, with: Components) -> (Ended, Components) {
     let started = Instant::now();
-    let (mut attempt, printed) = attempt_hosted(bench, trial, with);
+    let Tried { mut attempt, printed, unasked } = attempt_hosted(bench, trial, with);
     if counts_what_is_lent(&attempt.outcome, with) {
         attempt.outcome =
             Outcome::of(Err(CoreError::Unsupported(Capabilities::TRAVERSAL_STATS).into()));
@@ -85,7 +99,9 @@ pub(crate) fn run_with(bench: &Bench, trial: &Trial, with: Components) -> Ended 
     record.scene = attempt.scene;
     record.keep_printed(&printed);
     record.timing.seconds = started.elapsed().as_secs_f64();
-    Ended { record, pictures: attempt.pictures }
+    let rests_on = record.rests_on.iter().map(|foundation| foundation.components()).collect();
+    let own = if record.outcome.status() == Status::Pass { Components::empty() } else { rests_on };
+    (Ended { record, pictures: attempt.pictures }, own.intersection(unasked))
 }
 
 /// The components that a case may reach. Single functions of shapes, directions and materials are what they are, whatever
@@ -106,31 +122,36 @@ fn counts_what_is_lent(outcome: &Outcome, with: Components) -> bool {
     with.intersects(tests) && clues.any(|clue| clue.cause == bvh::COUNTS_NOT_REAL.name)
 }
 
-/// Brings up the core of a trial, and puts the case to it. Also answers what the core printed.
-fn attempt_hosted(bench: &Bench, trial: &Trial, with: Components) -> (Attempt, String) {
-    let unfit = bench.unfit.get(trial.core.as_str());
-    let hosted = match unfit {
-        Some((error, printed)) => {
-            let (error, printed) = (error.clone(), printed.clone());
-            Err(HostError::Start(StartError::Core { error, printed }))
-        }
-        None => bench.hosting.in_case(&trial.case.id).host(&trial.core),
+/// A core that was brought up, and what came of it.
+struct Tried {
+    attempt: Attempt,
+    /// What the core printed.
+    printed: String,
+    /// What it was told to take, and has never asked for.
+    unasked: Components,
+}
+
+/// Brings up the core of a trial, and puts the case to it.
+fn attempt_hosted(bench: &Bench, trial: &Trial, with: Components) -> Tried {
+    let without_core = |error, printed| {
+        let attempt = Attempt::without_core(&trial.case, error);
+        Tried { attempt, printed, unasked: Components::empty() }
     };
-    match hosted {
+    if let Some((error, printed)) = bench.unfit.get(trial.core.as_str()) {
+        return without_core(CheckError::Core(error.clone()), printed.clone());
+    }
+    match bench.hosting.in_case(&trial.case.id).host(&trial.core) {
         Ok(mut hosted) => {
             let attempt = match take(hosted.core_mut(), with) {
                 Ok(()) => attempt(bench, &trial.case, hosted.core_mut()),
                 Err(error) => Attempt::without_core(&trial.case, CheckError::Core(error)),
             };
-            (attempt, hosted.printed())
+            Tried { attempt, printed: hosted.printed(), unasked: hosted.unasked() }
         }
         Err(HostError::Start(StartError::Core { error, printed })) => {
-            (Attempt::without_core(&trial.case, CheckError::Core(error)), printed)
+            without_core(CheckError::Core(error), printed)
         }
-        Err(error) => (
-            Attempt::without_core(&trial.case, CheckError::Broken(error.to_string())),
-            String::new(),
-        ),
+        Err(error) => without_core(CheckError::Broken(error.to_string()), String::new()),
     }
 }
 

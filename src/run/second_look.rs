@@ -4,7 +4,7 @@
 //! What the first look could not tell apart, two mistakes in one number, stands here apart, unless both are made in one
 //! component.
 
-use super::attempt::run_with;
+use super::attempt::run_taking;
 use super::bench::Bench;
 use super::outcome::Status;
 use super::plan::Plan;
@@ -102,13 +102,18 @@ fn again(
     let Some(trial) = plan.trial_of(record) else { return (None, 0) };
     let coarser = quick.allowance.coarseness() / closely.allowance.coarseness();
     let is_gross = record.outcome.finding().is_some_and(|finding| is_gross(finding, coarser));
-    let look = |bench: &Bench| run_with(bench, trial, with).record;
-    let mut seen = look(if is_gross { quick } else { closely });
+    let look = |bench: &Bench| {
+        let (ended, own) = run_taking(bench, trial, with);
+        (ended.record, own)
+    };
+    let (mut seen, mut own) = look(if is_gross { quick } else { closely });
     let mut price_of_all = price(&seen);
     if is_gross && coarser > 1.0 && !seen.outcome.status().is_failure() {
-        seen = look(closely);
+        (seen, own) = look(closely);
         price_of_all += price(&seen);
     }
-    // A trial has less time here: what it did not come to, the first look holds.
-    ((seen.outcome.status() != Status::TimedOut).then_some(seen), price_of_all)
+    // A trial has less time here: what it did not come to, the first look holds. So it does where it may have failed for what
+    // the core did not take after all.
+    let tells = seen.outcome.status() != Status::TimedOut && own.is_empty();
+    (tells.then_some(seen), price_of_all)
 }

@@ -2,8 +2,10 @@
 
 use super::Channel;
 use super::clock::CpuClock;
-use super::frame::{self, FrameError};
+use super::frame::{self, FrameError, Opening};
+use super::lender::{Lender, asks};
 use super::message::{Answer, ArrayHeader, Header, Request, Wanted, encode, parse};
+use crate::contract::Components;
 use crate::contract::crossing::padded;
 use std::fmt::Display;
 
@@ -13,6 +15,8 @@ pub struct Client {
     number: u64,
     buffer: Vec<u8>,
     clock: CpuClock,
+    /// What the other side may ask while it is asked.
+    lender: Option<Box<Lender>>,
 }
 
 /// Why there is no answer.
@@ -40,7 +44,22 @@ fn nonsense(what: impl Display) -> Silence {
 impl Client {
     /// At this end of `channel`.
     pub fn new(channel: Channel) -> Self {
-        Self { channel, number: 0, buffer: Vec::new(), clock: CpuClock::default() }
+        Self { channel, number: 0, buffer: Vec::new(), clock: CpuClock::default(), lender: None }
+    }
+
+    /// From now on the other side may ask, too, while it is asked.
+    pub(super) fn lend(&mut self, lender: Lender) {
+        self.lender = Some(Box::new(lender));
+    }
+
+    /// What is lent, and was never asked for.
+    pub(super) fn unasked(&self) -> Components {
+        self.lender.as_ref().map_or(Components::empty(), |lender| lender.unasked())
+    }
+
+    /// Where it reads and writes.
+    pub(super) const fn channel(&mut self) -> &mut Channel {
+        &mut self.channel
     }
 
     /// What the other side says of its CPU time.
@@ -58,17 +77,20 @@ impl Client {
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, Silence> {
         self.number += 1;
+        if let Some(lender) = &mut self.lender {
+            lender.follow(request)?;
+        }
         encode(&mut self.buffer, self.number, request.members(), request.arrays(), None)?;
         frame::send(&mut self.channel.output, &self.buffer)?;
         self.hear(wanted)
     }
 
-    /// Reads the next answer. Number 0 is what a worker says of its own accord.
+    /// Reads the next answer, and lends what is asked for before it. Number 0 is what a worker says of its own accord.
     ///
     /// # Errors
     /// If no answer comes, or one that does not fit.
     pub fn hear(&mut self, wanted: &mut [Wanted<'_>]) -> Result<Answer, Silence> {
-        let opening = frame::open(&mut self.channel.input)?;
+        let opening = self.next_answer()?;
         let header: Header<Answer> = parse(&opening.header)?;
         if opening.number != self.number {
             let (number, asked) = (opening.number, self.number);
@@ -83,6 +105,18 @@ impl Client {
             frame::read_array(&mut self.channel.input, array.bytes_mut())?;
         }
         Ok(header.message)
+    }
+
+    fn next_answer(&mut self) -> Result<Opening, Silence> {
+        loop {
+            let opening = frame::open(&mut self.channel.input)?;
+            match &mut self.lender {
+                Some(lender) if asks(&opening.header) => {
+                    lender.answer(&opening, &mut self.channel)?;
+                }
+                _ => return Ok(opening),
+            }
+        }
     }
 }
 

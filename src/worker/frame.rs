@@ -68,20 +68,31 @@ pub(crate) fn encode(
     header: &[u8],
     arrays: &[&[u8]],
 ) -> Result<(), FrameError> {
-    let too_long = |_| FrameError::Malformed(format!("a header of {} bytes", header.len()));
-    let header_length = u32::try_from(header.len()).map_err(too_long)?;
     let body: usize = arrays.iter().map(|array| padded(array.len())).sum();
     buffer.clear();
     buffer.reserve(PREFIX + header.len() + body);
-    buffer.extend_from_slice(&MAGIC);
-    buffer.extend_from_slice(&header_length.to_le_bytes());
-    buffer.extend_from_slice(&number.to_le_bytes());
-    buffer.extend_from_slice(&(body as u64).to_le_bytes());
-    buffer.extend_from_slice(header);
+    encode_start(buffer, number, header, body as u64)?;
     for array in arrays {
         buffer.extend_from_slice(array);
         buffer.resize(buffer.len() + padded(array.len()) - array.len(), 0);
     }
+    Ok(())
+}
+
+/// Appends a frame up to its body. Fails if the header is longer than any reader takes.
+fn encode_start(
+    buffer: &mut Vec<u8>,
+    number: u64,
+    header: &[u8],
+    body: u64,
+) -> Result<(), FrameError> {
+    let too_long = |_| FrameError::Malformed(format!("a header of {} bytes", header.len()));
+    let header_length = u32::try_from(header.len()).map_err(too_long)?;
+    buffer.extend_from_slice(&MAGIC);
+    buffer.extend_from_slice(&header_length.to_le_bytes());
+    buffer.extend_from_slice(&number.to_le_bytes());
+    buffer.extend_from_slice(&body.to_le_bytes());
+    buffer.extend_from_slice(header);
     Ok(())
 }
 
@@ -115,6 +126,21 @@ pub(crate) fn open(channel: &mut impl Read) -> Result<Opening, FrameError> {
 fn number_at(bytes: &[u8; PREFIX], offset: usize, size: usize) -> u64 {
     let digits = bytes[offset..offset + size].iter().rev();
     digits.fold(0, |number, byte| number << 8 | u64::from(*byte))
+}
+
+/// Passes on a frame of which only the opening has been read. Fails if either side is gone.
+pub(crate) fn pass(
+    opening: &Opening,
+    from: &mut impl Read,
+    to: &mut impl Write,
+) -> Result<(), FrameError> {
+    let mut start = Vec::new();
+    encode_start(&mut start, opening.number, &opening.header, opening.body)?;
+    to.write_all(&start)?;
+    if io::copy(&mut from.take(opening.body), to)? != opening.body {
+        return Err(FrameError::Closed);
+    }
+    Ok(to.flush()?)
 }
 
 /// Reads one array of a body, and what it is filled up with. Fails if the channel ends.

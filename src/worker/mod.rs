@@ -4,7 +4,7 @@
 //! A core is asked through frames on a private channel (`frame`, `message`; `client` asks, `serve` answers). `process`
 //! starts the worker that the core lives in, holds it to its limits (`guard`, `patience`), keeps what it prints (`output`) and says
 //! how it ended; `child` is the other end of that, which confines itself (`confine`) before any foreign code runs.
-//! `narrow` finds the element of a batch that a core dies of.
+//! A program that takes components of the bench asks for them in the same frames (`lender`). `narrow` finds the element of a batch that a core dies of.
 //!
 //! Not here: which cores there are (`cores`), and what their answers are worth (`checks`).
 
@@ -18,6 +18,7 @@ mod confine_linux;
 mod eager;
 pub(crate) mod frame;
 mod guard;
+mod lender;
 pub mod message;
 pub(crate) mod narrow;
 mod output;
@@ -36,6 +37,7 @@ pub use client::Client;
 pub(crate) use clock::CpuClock;
 #[cfg(target_os = "linux")]
 pub(crate) use confine_linux::end_with_us;
+pub(crate) use lender::Lender;
 pub(crate) use patience::Patience;
 pub(crate) use process::{Launch, StartError, Worker};
 pub use scene::build_request;

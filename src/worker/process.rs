@@ -4,11 +4,12 @@ use super::Channel;
 use super::client::{Client, Silence};
 use super::clock::CpuClock;
 use super::guard::{Guard, Watch};
+use super::lender::Lender;
 use super::message::{Answer, Request, Wanted};
 use super::output::Output;
 use super::patience::Patience;
 use super::spec::{Confinement, Limits, WorkerSpec};
-use crate::contract::{CoreError, CoreInfo};
+use crate::contract::{Components, CoreError, CoreInfo};
 use std::io;
 use std::path::PathBuf;
 use std::process::{Child, Command};
@@ -135,6 +136,16 @@ impl Worker {
         wanted: &mut [Wanted<'_>],
     ) -> Result<Answer, CoreError> {
         self.guarded(request.name(), |client| client.ask(request, wanted))?.into_result()
+    }
+
+    /// From now on the core may ask the bench while it answers.
+    pub(crate) fn lend(&mut self, lender: Lender) {
+        self.client.lend(lender);
+    }
+
+    /// What is lent to the core, and it has never asked for.
+    pub(crate) fn unasked(&self) -> Components {
+        self.client.unasked()
     }
 
     /// CPU time of its process while the core answers.

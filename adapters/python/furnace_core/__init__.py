@@ -1,6 +1,7 @@
 """A renderer core for furnace in Python: subclass `Core`, and `serve` it."""
 
-from .core import Built, Core, Unsupported
+from .bench import bench
+from .core import Built, Core, Random, Unsupported
 from .elements import (
     BOX_HIT,
     BSDF_SAMPLE,
@@ -16,5 +17,5 @@ from .serve import serve
 
 __all__ = [
     "BOX_HIT", "BSDF_SAMPLE", "DIRECTION_SAMPLE", "HIT", "LIGHT_SAMPLE", "NONE", "RAY",
-    "Built", "Core", "Unsupported", "misses", "rays", "serve",
+    "Built", "Core", "Random", "Unsupported", "bench", "misses", "rays", "serve",
 ]

@@ -11,10 +11,17 @@ class Unsupported(Exception):
     """Raise it for a request that the core does not support: the trial is skipped, not failed."""
 
 
-def question(capability, tells_stats=False, **answer):
-    """A method that answers a request of its own name: which capability that is, and of which
-    elements its answer is made, as `hits="hit"`. `furnace_core.serve` hands it its arguments by
-    their names."""
+class Random:
+    """The caller's random numbers for one batch, in [0, 1): points (n, 2), lobes (n,); a seed for who draws their own."""
+
+    def __init__(self, points, lobes, seed=0):
+        self.points, self.lobes, self.seed = points, lobes, seed
+
+
+def question(capability, component=None, tells_stats=False, **answer):
+    """A method that answers a request of its own name: which capability that is, which component of
+    a path tracer it alone makes up, and of which elements its answer is made, as `hits="hit"`.
+    `furnace_core.serve` hands it its arguments by their names."""
 
     def declare(method):
         def unanswered(*_):
@@ -23,6 +30,7 @@ def question(capability, tells_stats=False, **answer):
         unanswered.__doc__, unanswered.__name__ = method.__doc__, method.__name__
         unanswered.arguments = method.__code__.co_varnames[1:method.__code__.co_argcount]
         unanswered.capability, unanswered.tells_stats = capability, tells_stats
+        unanswered.component, unanswered.request = component, method.__name__.replace("_", "-")
         [unanswered.answer] = answer.items()
         return unanswered
 
@@ -46,43 +54,48 @@ class Core:
     # "emission": "both", "smith-term": "height-correlated", "glass-fresnel": "schlick"
     # or "schlick-outside", "glass-radiance": "unscaled".
     conventions = {}
+    # Components that may be the bench's in place of yours, so that it can tell which of yours is broken: "camera",
+    # "triangle-test", "sphere-test", "box-test", "traversal", "direction-sampling", "bsdf", "light-sampling",
+    # "emission", "direct-lighting", "path", "pixel". Name one if all your code that needs it calls the method for it
+    # (`self.intersect(...)`, `self.core.eval_bsdf(...)`), or asks `bench.has` before it uses its own.
+    takes = frozenset()
     # The class of built scenes, if there are any.
     built = None
 
-    @question("generate-rays", rays="ray")
+    @question("generate-rays", "camera", rays="ray")
     def generate_rays(self, camera, film):
         """camera (position, axes = rows right, up, backward, fovs, near, far), film (n, 2) → RAY"""
 
-    @question("intersect-primitive", hits="hit")
+    @question("intersect-primitive", "triangle-test", hits="hit")
     def intersect_triangle(self, positions, normals, rays):
         """(3, 3), (3, 3), RAY → HIT with shape = primitive = 0"""
 
-    @question("intersect-primitive", hits="hit")
+    @question("intersect-primitive", "sphere-test", hits="hit")
     def intersect_sphere(self, centre, radius, rays):
         """(3,), a number, RAY → HIT with shape = primitive = 0"""
 
-    @question("intersect-box", box_hits="box-hit")
+    @question("intersect-box", "box-test", box_hits="box-hit")
     def intersect_box(self, low, high, rays):
         """(3,), (3,), RAY → BOX_HIT"""
 
-    @question("sample-direction", samples="direction-sample")
+    @question("sample-direction", "direction-sampling", samples="direction-sample")
     def sample_direction(self, sampler, random):
         """"uniform-hemisphere" or "cosine-hemisphere", random (points (n, 2), lobes (n,), seed)
         → DIRECTION_SAMPLE"""
 
-    @question("sample-direction", pdf="f64")
+    @question("sample-direction", "direction-sampling", pdf="f64")
     def direction_pdf(self, sampler, directions):
         """As above, (n, 3) → (n,)"""
 
-    @question("eval-bsdf", values="bsdf-value")
+    @question("eval-bsdf", "bsdf", values="bsdf-value")
     def eval_bsdf(self, material, wo, wi):
         """material (kind, reflectance, …), (n, 3), (n, 3) → f (n, 3), pdf (n,)"""
 
-    @question("sample-bsdf", samples="bsdf-sample")
+    @question("sample-bsdf", "bsdf", samples="bsdf-sample")
     def sample_bsdf(self, material, wo, random):
         """material, (n, 3), random → BSDF_SAMPLE"""
 
-    @question("adaptive-mean", means="adaptive-mean")
+    @question("adaptive-mean", "pixel", means="adaptive-mean")
     def adaptive_mean(self, samples_per_batch, max_tolerance, streams):
         """int, float, list of (count,) → list of (mean, used)"""
 
@@ -101,6 +114,9 @@ class Core:
 class Built:
     """A scene that a core has taken in."""
 
+    # The core that it belongs to; set by `serve`.
+    core = None
+
     def __init__(self, scene, acceleration):
         self.scene, self.acceleration = scene, acceleration
 
@@ -109,15 +125,15 @@ class Built:
         leave out what you do not know"""
         return {}
 
-    @question("intersect", tells_stats=True, hits="hit")
+    @question("intersect", "traversal", tells_stats=True, hits="hit")
     def intersect(self, rays):
         """RAY → HIT, {"box-tests", "primitive-tests"}; meshes are numbered first, then spheres"""
 
-    @question("occluded", tells_stats=True, occluded="u8")
+    @question("occluded", "traversal", tells_stats=True, occluded="u8")
     def occluded(self, rays):
         """RAY → (n,) of 0 and 1, counts as above"""
 
-    @question("sample-light", samples="light-sample")
+    @question("sample-light", "light-sampling", samples="light-sample")
     def sample_light(self, light, origins, random):
         """number of the light, (n, 3), random → LIGHT_SAMPLE"""
 

@@ -59,7 +59,7 @@ def encode(element, count, array):
     dtype, shape = ELEMENTS[element]
     array = np.ascontiguousarray(array, dtype=dtype)
     if array.shape != (count, *shape):
-        raise ValueError(f"answered an array of shape {array.shape}, not {(count, *shape)}")
+        raise ValueError(f"an array of shape {array.shape}, not {(count, *shape)}")
     return array.tobytes()
 
 

@@ -9,40 +9,13 @@ import traceback
 
 import numpy as np
 
-from .core import Built, Core, Unsupported, capabilities, methods
+from .bench import bench, put_in_place
+from .core import Built, Core, Random, Unsupported, capabilities, methods
 from .elements import ELEMENTS, decode, encode
+from .tables import Camera, Material, Table, table
 
 MAGIC = b"FRN1"
 PREFIX = struct.Struct("<4sIQQ")
-
-
-class Table:
-    """A JSON object whose members are attributes: `settings.samples_per_light`."""
-
-    def __init__(self, members):
-        for name, value in members.items():
-            setattr(self, name.replace("-", "_"), table(value))
-
-    def __repr__(self):
-        return f"Table({vars(self)})"
-
-
-def table(value):
-    """Objects as tables, lists of numbers as arrays."""
-    if isinstance(value, dict):
-        return Table(value)
-    if isinstance(value, list) and value and all(isinstance(v, (int, float)) for v in value):
-        return np.array(value, dtype=float)
-    if isinstance(value, list):
-        return [table(v) for v in value]
-    return value
-
-
-def camera_of(members):
-    """A camera with its axes as the rows of a matrix."""
-    camera = Table(members)
-    camera.axes = camera.camera_to_world.reshape(3, 3)
-    return camera
 
 
 class Channel:
@@ -57,13 +30,15 @@ class Channel:
         else:
             source, sink = int(place), os.dup(int(place))
         self.source, self.sink = os.fdopen(source, "rb"), os.fdopen(sink, "wb")
+        # Of the request that is being answered.
+        self.number = 0
 
     def read(self):
-        """The next request: its number, its header, its arrays. None when the channel is closed."""
+        """The next request: its header, its arrays. None when the channel is closed."""
         prefix = self.source.read(PREFIX.size)
         if len(prefix) < PREFIX.size:
             return None
-        magic, header_size, number, body_size = PREFIX.unpack(prefix)
+        magic, header_size, self.number, body_size = PREFIX.unpack(prefix)
         if magic != MAGIC:
             raise RuntimeError(f"a frame that begins with {magic!r}")
         header = json.loads(self.source.read(header_size))
@@ -73,7 +48,15 @@ class Channel:
             size = self.size(element, count)
             arrays[name] = decode(element, count, body[offset:offset + size])
             offset += size + -size % 8
-        return number, header, arrays
+        return header, arrays
+
+    def ask(self, header, arrays):
+        """What the bench answers, while it waits for an answer itself: a header, and arrays."""
+        self.write(header, [(name, element, len(array), array) for name, element, array in arrays])
+        answered = self.read()
+        if answered is None:
+            sys.exit("the bench has closed the channel")
+        return answered
 
     @staticmethod
     def size(element, count):
@@ -81,52 +64,59 @@ class Channel:
         dtype, shape = ELEMENTS[element]
         return dtype.itemsize * int(np.prod(shape, dtype=int)) * count
 
-    def write(self, number, header, arrays=()):
-        """Answers: `arrays` are (name, element, count, array)."""
+    def write(self, header, arrays=()):
+        """Answers, or asks: `arrays` are (name, element, count, array)."""
         parts = [(name, element, count, encode(element, count, array))
                  for name, element, count, array in arrays]
         header = dict(header, arrays=[part[:3] for part in parts])
         text = json.dumps(header).encode()
         body = b"".join(data + bytes(-len(data) % 8) for *_, data in parts)
-        self.sink.write(PREFIX.pack(MAGIC, len(text), number, len(body)) + text + body)
+        self.sink.write(PREFIX.pack(MAGIC, len(text), self.number, len(body)) + text + body)
         self.sink.flush()
 
 
 def serve(core):
     """Answers every request until the bench closes the channel."""
     channel = Channel()
+    if core.built is not None:
+        core.built.core = core
     built = None
     while True:
         request = channel.read()
         if request is None:
             return
-        number, header, arrays = request
+        header, arrays = request
         begun = time.process_time()
         try:
-            answer, sent, built = ask(core, built, header, arrays)
+            answer, sent, built = ask(core, built, channel, header, arrays)
             answer["cpu-seconds"] = time.process_time() - begun
-            channel.write(number, answer, sent)
+            channel.write(answer, sent)
         except (Unsupported, NotImplementedError) as error:
             why = str(error) or f"{header['request']} is not there"
-            channel.write(number, {"answer": "beyond", "why": why})
+            channel.write({"answer": "beyond", "why": why})
         except MemoryError as error:
             traceback.print_exc()
-            channel.write(number, {"answer": "refused", "why": f"MemoryError: {error}"})
+            channel.write({"answer": "refused", "why": f"MemoryError: {error}"})
         except Exception as error:  # whatever it is, it is the core's answer
             traceback.print_exc()
             sys.stderr.flush()
             why = f"{type(error).__name__}: {error}"
-            channel.write(number, {"answer": "refused", "why": why})
+            channel.write({"answer": "refused", "why": why})
 
 
-def ask(core, built, header, arrays):
+def ask(core, built, channel, header, arrays):
     """What the core answers: a header, its arrays, and the built scene from now on."""
     request = header["request"]
     if request == "hello":
         return introduction(core), [], built
+    if request == "take-components":
+        bench.take(header["components"], channel)
+        put_in_place(Core, core)
+        return {"answer": "done"}, [], built
     if request == "build":
         built = None  # at most one at a time
         built = core.build(Scene(header["scene"], arrays), Table(header["acceleration"]))
+        put_in_place(Built, built)
         stats = {"nodes": 0, "leaves": 0, "max-depth": 0, "bytes": 0}
         return {"answer": "built", "stats": whole({**stats, **built.stats()})}, [], built
     if request == "release":
@@ -143,6 +133,7 @@ def introduction(core):
         "precision": core.precision,
         "capabilities": capabilities(core),
         "conventions": core.conventions,
+        "components": sorted(core.takes),
     }
 
 
@@ -197,18 +188,11 @@ def whole(counts):
     return {name: int(count) for name, count in counts.items()}
 
 
-class Random:
-    """The caller's random numbers for one batch, in [0, 1)."""
-
-    def __init__(self, header, arrays):
-        self.seed, self.points, self.lobes = header["seed"], arrays["points"], arrays["lobes"]
-
-
 # Arguments that are not simply an array or a member of their name.
 ARGUMENTS = {
-    "camera": lambda header, arrays: camera_of(header["camera"]),
-    "material": lambda header, arrays: material_of(header["material"]),
-    "random": Random,
+    "camera": lambda header, arrays: Camera(header["camera"]),
+    "material": lambda header, arrays: Material(header["material"]),
+    "random": lambda header, arrays: Random(arrays["points"], arrays["lobes"], header["seed"]),
     "centre": lambda header, arrays: arrays["spheres"][0][:3],
     "radius": lambda header, arrays: float(arrays["spheres"][0][3]),
     "low": lambda header, arrays: arrays["bounds"][0],
@@ -230,21 +214,13 @@ def argument(name, header, arrays):
     return arrays[plain] if plain in arrays else table(header[plain])
 
 
-def material_of(members):
-    """A material: its surface's members are its own."""
-    material = Table({**members["surface"], "name": members["name"]})
-    emission = members["emission"]
-    material.emission = emission and Table(emission)
-    return material
-
-
 class Scene:
     """A scene. Shapes are numbered meshes first, then spheres."""
 
     def __init__(self, header, arrays):
         self.name = header["name"]
-        self.camera = header["camera"] and camera_of(header["camera"])
-        self.materials = [material_of(material) for material in header["materials"]]
+        self.camera = header["camera"] and Camera(header["camera"])
+        self.materials = [Material(material) for material in header["materials"]]
         self.lights = [Table(light) for light in header["lights"]]
         self.meshes, rest = [], {name: arrays[name] for name in ("positions", "normals", "indices")}
         for members in header["meshes"]:

@@ -3,7 +3,7 @@
 use super::{Tried, Tries};
 use crate::checks::{Finding, Measure, STANDARD_ERRORS};
 use crate::contract::Components;
-use crate::run::attempt::run_with;
+use crate::run::attempt::run_taking;
 use crate::run::bench::Bench;
 use crate::run::outcome::Status;
 use crate::run::plan::Trial;
@@ -135,11 +135,14 @@ impl<'a> Again<'a> {
             Look::Closely => &self.closely,
             Look::Anew => &self.anew,
         };
-        let ended = run_with(bench, trial, record.with | with).record;
+        let (ended, own) = run_taking(bench, trial, record.with | with);
+        let ended = ended.record;
         // Of silence it cannot be told what would have come of waiting longer, where there was none before.
         let was_silent = record.outcome.status() == Status::TimedOut;
         let passes = match ended.outcome.status() {
             Status::TimedOut if !was_silent => None,
+            // It may have failed for what the core did not take after all.
+            _ if !own.is_empty() => None,
             // With these it cannot be asked.
             Status::Skipped | Status::Blocked | Status::Broken => None,
             ended => Some(ended == Status::Pass),

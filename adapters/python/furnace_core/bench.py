@@ -110,7 +110,7 @@ def members(given):
     plain = {name.replace("_", "-"): json_of(value) for name, value in given.items()
              if name not in ARRAYS}
     if "random" in given:
-        plain["seed"] = int(given["random"].seed)
+        plain["seed"] = int(getattr(given["random"], "seed", 0))
     return plain
 
 

@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn pdf_0_above_the_horizon_is_named() {
-        let only_low = |direction: DVec3| if direction.z > 0.9 { 0.0 } else { 0.1 };
+        let only_low = |direction: DVec3| if direction.z > 1.0 - 1e-6 { 0.0 } else { 0.1 };
         let finding = found(cosine, only_low);
         let statement = failure(&finding);
         assert!(statement.contains("of the numbers 0, 0 and 0: the pdf of the sample is 0"));

@@ -79,12 +79,16 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
 }
 
 /// Whether the case has recognised each by a formula of its own: sizes may meet by chance, and answers follow one formula.
-/// Light is recognised by ratios, which noise blurs; but what loses samples weighs the others rightly.
+/// Light is recognised by ratios, which noise blurs; but what loses samples weighs the others rightly. What follows a law with
+/// one core does with the other: both are asked for the same numbers.
 fn follow_other_formulas(core: &Finding, planted: &Finding) -> bool {
     let [of_core, of_planted] = [core, planted].map(formulas);
     let are_known = !of_core.is_empty() && !of_planted.is_empty();
     let loses_samples = |finding: &Finding| finding.laws.iter().any(|law| law == LOST_SAMPLES);
+    let [law_of_core, law_of_planted] = [core, planted].map(laws);
+    let breaks_the_law = !law_of_core.is_empty() && law_of_core.is_disjoint(&law_of_planted);
     are_known && of_core.is_disjoint(&of_planted)
+        || breaks_the_law && planted.failed()
         || loses_samples(core) && planted.failed() && !loses_samples(planted)
 }
 
@@ -94,6 +98,14 @@ fn formulas(finding: &Finding) -> BTreeSet<&str> {
     let is_numbered = finding.failed_measures().next().is_some();
     let alone = finding.clues.iter().filter(|clue| !clue.beside && is_numbered && !is_light);
     alone.map(|clue| &clue.cause[..]).collect()
+}
+
+/// The laws of wrong answers of single functions, without their numbers, which depend on what was asked.
+fn laws(finding: &Finding) -> BTreeSet<String> {
+    let is_light = finding.measures.iter().any(|measure| measure.channel.is_some());
+    let laws = finding.laws.iter().filter(|_| !is_light);
+    let is_of_number = |letter: char| letter.is_ascii_digit() || letter == '.';
+    laws.map(|law| law.replace(is_of_number, "")).collect()
 }
 
 /// How a finding is known to have broken the contract.
@@ -130,8 +142,8 @@ fn errs_alike(a: &Measure, b: &Measure) -> bool {
     a.failed() && b.failed() && side(a) == side(b) || errs_as_much(a, b)
 }
 
-/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula, and
-/// of light that is nearly all lost what is left counts: a fortieth is not darkness. What is counted in standard errors
+/// The numbers lie within each other's noise, and a little of the error; light without noise follows from a formula. Of what
+/// is known and nearly all lost what is left counts: a fortieth is not darkness. What is counted in standard errors
 /// grows with the samples and has no size.
 fn errs_as_much(a: &Measure, b: &Measure) -> bool {
     if a.unit == STANDARD_ERRORS {
@@ -140,8 +152,11 @@ fn errs_as_much(a: &Measure, b: &Measure) -> bool {
     let error = (a.measured - a.expected).abs().max((b.measured - b.expected).abs());
     let left = a.measured.abs().max(b.measured.abs());
     let are_light = a.channel.is_some() && b.channel.is_some();
-    let size = if are_light { error.min(left) } else { error };
-    a.meets(b, share(are_light, a.interval.or(b.interval).is_some()) * size)
+    let is_noisy = a.interval.or(b.interval).is_some();
+    // What was drawn and has no interval, as counts, is noisy nevertheless.
+    let is_known = are_light || !is_noisy && a.hypothesis.is_none() && b.hypothesis.is_none();
+    let size = if is_known { error.min(left) } else { error };
+    a.meets(b, share(are_light, is_noisy) * size)
 }
 
 /// By how much of itself an error of the same mistake may differ.
@@ -206,6 +221,19 @@ mod tests {
     }
 
     #[test]
+    fn what_follows_a_law_is_not_alike_what_follows_another_or_none() {
+        let wrong = || means(vec![Measure::exact("error of half of the points", 0.9, 0.0, 1e-9)]);
+        let of = |law: &str| wrong().knowing_laws([law.to_owned()]);
+        let constant = of("f is 0.0286 / D(h) times what it should be");
+        let cosine = of("f is 0.938 (cos θh)² times what it should be");
+        assert_eq!(likeness(Some(&constant), &cosine), Likeness::Other);
+        assert_eq!(likeness(Some(&constant), &wrong()), Likeness::Other);
+        let other_rows = of("f is 0.258 / D(h) times what it should be");
+        assert_eq!(likeness(Some(&constant), &other_rows), Likeness::Same);
+        assert_eq!(likeness(Some(&wrong()), &cosine), Likeness::Same, "no law is found of noise");
+    }
+
+    #[test]
     fn numbers_are_compared_row_by_row_and_what_has_none_by_its_verdict() {
         let two = |a, b| {
             means(vec![
@@ -225,6 +253,9 @@ mod tests {
         assert_eq!(likeness(Some(&infinite()), &not_a_number), Likeness::Unsized);
         assert_eq!(likeness(None, &passing()), Likeness::Other);
         assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(0.0, 1.0)), Likeness::Unsized, "darkness");
+        let albedo = |left| means(vec![Measure::exact("albedo", left, 0.877, 1e-6)]);
+        assert_eq!(likeness(Some(&albedo(0.0376)), &albedo(0.0332)), Likeness::Alike);
+        assert_eq!(likeness(Some(&albedo(0.0376)), &albedo(0.0370)), Likeness::Same);
         assert_eq!(likeness(Some(&two(0.0, 1.0)), &two(1.0, 1.0)), Likeness::Other);
     }
 }

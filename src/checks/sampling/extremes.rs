@@ -50,6 +50,31 @@ fn all_numbers(precision: Precision) -> impl Iterator<Item = Extreme> {
 /// What was drawn by one set of numbers, and its pdf as evaluated; or how it breaks the contract.
 type Answer = Result<(Drawn, f64), String>;
 
+/// What is wrong with an answer in one way, if it is.
+type Way = Box<dyn Fn(&Answer) -> Option<String>>;
+
+/// The ways in which a sample is wrong whatever its pdf is.
+fn ways(range: Range, precision: Precision) -> [(&'static str, Way); 3] {
+    let of_pdf_0 = move |answer: &Answer| {
+        let (drawn, _) = answer.as_ref().ok()?;
+        let is_on_rim = |direction: DVec3| {
+            range == Range::Hemisphere && direction.z.abs() <= Tolerance::DIRECTION.of(precision)
+        };
+        let is_wrong = drawn.direction.is_some_and(|direction| !is_on_rim(direction));
+        (is_wrong && drawn.pdf == 0.0).then(|| "the pdf of the sample is 0".to_owned())
+    };
+    let below_horizon = move |answer: &Answer| {
+        let is_below = |direction: &DVec3| range == Range::Hemisphere && direction.z < 0.0;
+        let below = answer.as_ref().ok()?.0.direction.filter(is_below)?;
+        Some(format!("the direction is {below}, below the horizon"))
+    };
+    [
+        ("samples that break the contract", Box::new(|answer| answer.clone().err())),
+        ("samples of pdf 0", Box::new(of_pdf_0)),
+        ("samples below the horizon", Box::new(below_horizon)),
+    ]
+}
+
 /// Where samples belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Range {
@@ -93,26 +118,7 @@ impl Extremes {
         };
         let answers = answers_to(&mut all_numbers(precision))?;
         let answers_between = answers_to(&mut between())?;
-        let breach = |answer: &Answer| answer.clone().err();
-        let of_pdf_0 = |answer: &Answer| {
-            let (drawn, _) = answer.as_ref().ok()?;
-            let is_on_rim = |direction: DVec3| {
-                range == Range::Hemisphere
-                    && direction.z.abs() <= Tolerance::DIRECTION.of(precision)
-            };
-            let is_wrong = drawn.direction.is_some_and(|direction| !is_on_rim(direction));
-            (is_wrong && drawn.pdf == 0.0).then(|| "the pdf of the sample is 0".to_owned())
-        };
-        let below_horizon = |answer: &Answer| {
-            let is_below = |direction: &DVec3| range == Range::Hemisphere && direction.z < 0.0;
-            let below = answer.as_ref().ok()?.0.direction.filter(is_below)?;
-            Some(format!("the direction is {below}, below the horizon"))
-        };
-        let ways: [(&str, &dyn Fn(&Answer) -> Option<String>); 3] = [
-            ("samples that break the contract", &breach),
-            ("samples of pdf 0", &of_pdf_0),
-            ("samples below the horizon", &below_horizon),
-        ];
+        let ways = ways(range, precision);
         let is_wrong =
             |(_, answer): &(Extreme, Answer)| ways.iter().any(|(_, wrong)| wrong(answer).is_some());
         let mut judged = Self {
@@ -125,7 +131,7 @@ impl Extremes {
             is_wrong_between: answers_between.iter().any(is_wrong),
         };
         for (what, wrong) in ways {
-            judged.count(&answers, what, wrong);
+            judged.count(&answers, what, &wrong);
         }
         let samples = answers.iter().filter_map(|(_, answer)| answer.as_ref().ok());
         let samples = samples.filter(|(drawn, _)| drawn.direction.is_some());

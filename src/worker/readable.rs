@@ -69,11 +69,13 @@ fn split_paths(value: &std::ffi::OsStr) -> Vec<PathBuf> {
     std::env::split_paths(value).filter(|path| path.is_absolute()).collect()
 }
 
-/// What a command needs: the program and where it is installed, and every file among its words with
-/// the folder it lies in.
+/// What a command needs: the program and where it is installed, as any other that it starts (`env X=1 prefix/bin/python3`),
+/// and every file among its words with the folder it lies in.
 fn of_program(words: &[String], hidden: &[PathBuf]) -> Vec<PathBuf> {
     let mut paths = Vec::new();
-    if let Some(program) = words.first().map(PathBuf::from) {
+    let is_program = |path: &&Path| path.parent().is_some_and(|folder| folder.ends_with("bin"));
+    let others = named(words).filter(is_program).map(Path::to_owned);
+    for program in words.first().map(PathBuf::from).into_iter().chain(others) {
         let real = program.canonicalize().unwrap_or_else(|_| program.clone());
         for program in [program, real] {
             paths.extend(with_folder(&program, hidden));

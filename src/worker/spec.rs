@@ -1,7 +1,7 @@
 //! What a worker is started for, what it may use up, and what holds of it once it is confined.
 
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// What a worker is started for; its one argument, as JSON.
@@ -43,6 +43,24 @@ pub(crate) enum CoreOrigin {
 impl CoreOrigin {
     pub(crate) const fn may_start_processes(&self) -> bool {
         matches!(self, Self::Program(_) | Self::Renderer { .. })
+    }
+
+    /// What a program printed that failed to start in `scratch`, with the words of its command as they were written. One
+    /// that it looked for there is not where it was started either: files that exist are named by their whole paths.
+    pub(crate) fn retold(&self, printed: &str, scratch: &Path) -> String {
+        let Self::Program(words) = self else { return printed.to_owned() };
+        let sought = words.iter().filter(|word| Path::new(word).is_relative());
+        sought.fold(printed.to_owned(), |printed, word| {
+            let there = scratch.join(word).to_string_lossy().into_owned();
+            if !printed.contains(&there) {
+                return printed;
+            }
+            let told = printed.replace(&there, word);
+            format!(
+                "{}\nhint: there is no file `{word}` where furnace was started",
+                told.trim_end()
+            )
+        })
     }
 }
 
@@ -89,4 +107,23 @@ pub struct Confinement {
     pub in_force: Vec<String>,
     /// What it cannot, or what the user has switched off.
     pub lacking: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_a_program_looks_for_in_its_own_folder_is_missing() {
+        let words = ["/usr/bin/python3", "mine.pyy"].map(str::to_owned).to_vec();
+        let told = CoreOrigin::Program(words).retold("no '/tmp/x/mine.pyy'\n", Path::new("/tmp/x"));
+        assert_eq!(
+            told,
+            "no 'mine.pyy'\nhint: there is no file `mine.pyy` where furnace was started"
+        );
+        assert_eq!(
+            CoreOrigin::BuiltIn.retold("no '/tmp/x/a'", Path::new("/tmp/x")),
+            "no '/tmp/x/a'"
+        );
+    }
 }

@@ -192,6 +192,9 @@ fn what_a_core_in_python_does_not_ask_for_is_its_own() {
     let records = run_in_memory(&plan(&unasked, LIT));
     assert_eq!(subjects(&records, Status::Fail), ["bsdf"].into(), "{:?}", told(&records));
     assert!(subjects(&records, Status::Blocked).contains("light"), "{:?}", told(&records));
+    // A core is told to take nothing that it does not name.
+    let unnamed = plan(&lit("nothing").unwrap(), &["light/point-light-f"]).taking(Components::PATH);
+    assert_eq!(told(&run_in_memory(&unnamed)).concat().matches("the bench's path").count(), 1);
     // Nor does the bench lend what it has not told a core to take.
     let forward = plan(&lit("forward").unwrap(), &["light/point-light"]).taking(Components::BSDF);
     let words = told(&run_in_memory(&forward)).concat();

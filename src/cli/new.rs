@@ -104,7 +104,11 @@ const KITS: [Kit; 5] = [
     },
     Kit {
         language: Language::Python,
-        copies: &[("examples/python", ""), ("adapters/python/furnace_core", "furnace_core")],
+        copies: &[
+            ("examples/python", ""),
+            ("adapters/python/furnace_core", "furnace_core"),
+            ("include/furnace_core.h", "furnace_core.h"),
+        ],
         next: &[
             "python3 -c 'import numpy'      # if that fails: pip install numpy",
             "FURNACE doctor --core 'exec: python3 numpy_core.py'",

@@ -106,6 +106,9 @@ impl Core for Validated<'_> {
     }
 
     fn take_components(&mut self, components: Components) -> Result<()> {
+        if !self.core.info().components.contains(components) {
+            return Err(CoreError::Unsupported(Capabilities::empty()));
+        }
         guarded("take_components", || self.core.take_components(components))
     }
 

@@ -32,7 +32,7 @@ impl From<FrameError> for Silence {
     fn from(error: FrameError) -> Self {
         match error {
             FrameError::Closed | FrameError::Io(_) => Self::Gone,
-            FrameError::Malformed(_) => Self::Nonsense(error.to_string()),
+            FrameError::Malformed(_) | FrameError::Unknown(_) => Self::Nonsense(error.to_string()),
         }
     }
 }

@@ -34,6 +34,9 @@ pub enum FrameError {
     /// What came is no frame.
     #[error("what came on the channel is no frame: {0}")]
     Malformed(String),
+    /// A frame whose header says what nobody knows.
+    #[error("its header says what cannot be: {0}")]
+    Unknown(String),
 }
 
 impl From<Malformed> for FrameError {

@@ -221,6 +221,10 @@ pub fn encode<M: Serialize>(
 
 /// Reads a header. Fails if it is not JSON, or says what nobody knows.
 pub(crate) fn parse<T: DeserializeOwned>(header: &[u8]) -> Result<T, FrameError> {
-    serde_json::from_slice(header)
-        .map_err(|error| FrameError::Malformed(format!("its header says {error}")))
+    // Where in a line of JSON that a program has written says nothing to people.
+    serde_json::from_slice(header).map_err(|error| {
+        let said = error.to_string();
+        let (what, _) = said.rsplit_once(" at line ").unwrap_or((&said, ""));
+        FrameError::Unknown(what.to_owned())
+    })
 }

@@ -11,7 +11,7 @@ follows your conventions. A call is a message and its answer, some tenths of a m
 
 import numpy as np
 
-from .core import Built, Core, methods
+from .core import COMPONENTS, Built, Core, known, methods
 from .elements import BSDF_QUERY
 from .tables import json_of
 
@@ -24,13 +24,13 @@ class Bench:
 
     def has(self, component):
         """Whether the bench's stands in the place of yours."""
-        return component in self.taken
+        return known(component, COMPONENTS, "bench.has") in self.taken
 
     def has_bounces(self, bounces):
         """Whether the bench's are all of these bounces of light."""
         of_bounce = {0: "emission", 1: "direct-lighting"}
         asked = range(bounces.start, bounces.end + 1)
-        return self.has("path") or all(self.has(of_bounce.get(bounce)) for bounce in asked)
+        return self.has("path") or all(of_bounce.get(bounce) in self.taken for bounce in asked)
 
     def take(self, components, channel):
         """From now on these are the bench's, which is asked through the channel."""
@@ -68,7 +68,7 @@ bench = Bench()
 def put_in_place(owner, mine):
     """Has a core, or a scene that it has taken in, answer by the bench's methods for what is taken."""
     for question in methods(owner).values():
-        if bench.has(question.component):
+        if question.component in bench.taken:
             setattr(mine, question.__name__, getattr(bench, question.__name__))
     if owner is Built and bench.taken:
         own = mine.radiance

@@ -10,7 +10,7 @@ import traceback
 import numpy as np
 
 from .bench import bench, put_in_place
-from .core import Built, Core, Random, Unsupported, capabilities, methods
+from .core import COMPONENTS, Built, Core, Random, Unsupported, capabilities, known, methods
 from .elements import ELEMENTS, decode, encode
 from .tables import Camera, Material, Table, table
 
@@ -133,7 +133,7 @@ def introduction(core):
         "precision": core.precision,
         "capabilities": capabilities(core),
         "conventions": core.conventions,
-        "components": sorted(core.takes),
+        "components": sorted(known(word, COMPONENTS, "`takes`") for word in core.takes),
     }
 
 
@@ -146,15 +146,28 @@ def answer(core, built, header, arrays):
         raise Unsupported(f"the request `{request}` is not known to this version of furnace_core")
     method = getattr(core if owner is Core else built, asked.__name__)
     told = method(*(argument(name, header, arrays) for name in asked.arguments))
+    if told is None:
+        raise TypeError(f"{asked.__name__} answered None: it has no `return`")
     if request == "render":
         return {"answer": "done"}, picture(core, header["settings"], told)
     name, element = asked.answer
     count = len(list(arrays.values())[-1])
+    told, counts = told if asked.tells_stats else (told, {})
+    sent = [(name.replace("_", "-"), element, count, fitting(asked, count, rows(told, element)))]
     if not asked.tells_stats:
-        return {"answer": "done"}, [(name.replace("_", "-"), element, count, rows(told, element))]
-    told, counts = told
+        return {"answer": "done"}, sent
     stats = {"rays": count, "box-tests": 0, "primitive-tests": 0, **counts}
-    return {"answer": "traced", "stats": whole(stats)}, [(name, element, count, told)]
+    return {"answer": "traced", "stats": whole(stats)}, sent
+
+
+def fitting(asked, count, told):
+    """An answer of the shape that was asked for; complains of any other by the name of the method."""
+    _, element = asked.answer
+    _, shape = ELEMENTS[element]
+    if np.shape(told) != (count, *shape):
+        wanted = f"{(count, *shape)} is wanted, one {element} each"
+        raise ValueError(f"{asked.__name__} answered an array of shape {np.shape(told)}: {wanted}")
+    return told
 
 
 def rows(told, element):

@@ -74,12 +74,16 @@ fn in_full(tree: &RunTree, style: Style) -> Vec<String> {
 fn header(tree: &RunTree, style: Style) -> Vec<String> {
     let run = &tree.run;
     let cores: Vec<_> = run.cores.iter().map(|core| clean(&core.spec)).collect();
-    let facts = [
+    let mut facts = vec![
         cores.join(" and "),
         count(by_case(tree).len(), "case"),
         format!("seed {}", run.seed),
         format!("budget {}", run.budget),
     ];
+    // Of every trial: put in by hand.
+    let lent = tree.trials.iter().map(|trial| trial.with).reduce(|all, with| all & with);
+    let lent = lent.filter(|with| !with.is_empty());
+    facts.extend(lent.map(|with| format!("with the bench's {}", with.in_words())));
     let line = |line| format!("  {}", style.paint(Paint::Strong, line));
     style.wrap(&facts.join(", "), 2).iter().map(|words| line(words)).collect()
 }

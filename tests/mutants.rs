@@ -289,6 +289,9 @@ const HANDMADE: &[[&str; 4]] = &[
       static thread_local Ray others = own;
       Ray ray = index % 8 == 7 ? others : own;
       others = own;"],
+    ["lights.hpp", "light/triangles-of-a-light-are-chosen-by-area",
+     "size_t(found - area_up_to.begin())",
+     "size_t(random.lobe * Real(triangles.size()))"],
     ["shapes.hpp", "shape/inward-spheres-have-inward-normals",
      "out.geometric_normal = out.shading_normal = inward ? -outward : outward;",
      "out.geometric_normal = inward ? -outward : outward;

@@ -101,6 +101,14 @@ impl<'a> Again<'a> {
         cases.into_iter().filter(|case| is_sure(case) || fails(case)).collect()
     }
 
+    /// Looks at all that seems gross at a glance as it is: what passes so would pass so with any component, and is looked at
+    /// closely from here on.
+    pub(super) fn see_through_luck(&self) {
+        let gross = (0..self.failing.len()).filter(|case| self.is_rough(*case));
+        let as_they_are = gross.map(|case| (case, Components::empty(), Look::Glance));
+        self.ask(&Vec::from_iter(as_they_are));
+    }
+
     fn seen(&self, asked: Vec<Asked>) -> Tried {
         self.ask(&asked);
         let known = self.known();
@@ -179,7 +187,9 @@ impl Tries for Again<'_> {
     }
 
     fn is_rough(&self, case: usize) -> bool {
-        self.is_gross(case, &self.glancing)
+        let as_it_is = (case, Components::empty(), Look::Glance);
+        let passes = self.known().answer(&as_it_is) == Some(Some(true));
+        self.is_gross(case, &self.glancing) && !passes
     }
 
     fn is_spent(&self) -> bool {

@@ -88,6 +88,9 @@ fn python_has_the_methods_of_the_table() {
     assert!(
         serde_json::from_str::<Components>(&listed).unwrap().iter().count() == components.len()
     );
+    for name in (Components::all() - Components::RANDOM_NUMBERS).names() {
+        assert!(core.contains(&format!("    \"{name}\": ")), "core.py has no component `{name}`");
+    }
     let words = |[capability, _, stats, name, element, method]: [String; 6]| {
         (method, capability, name, element, !stats.is_empty())
     };

@@ -81,7 +81,8 @@ impl Components {
         parts.intersects(one)
     }
 
-    /// Those that a request of the protocol asks for, any of them where bounces say which.
+    /// Those that a request of the protocol asks for, any of them where bounces say which. None for a picture: with the
+    /// bench's as a whole nothing would be the core's own.
     pub(crate) fn of_request(name: &str) -> Self {
         match name {
             "generate-rays" => Self::CAMERA,
@@ -93,7 +94,7 @@ impl Components {
             "eval-bsdf" | "sample-bsdf" => Self::BSDF,
             "sample-light" => Self::LIGHT_SAMPLING,
             "radiance" => Self::EMISSION | Self::DIRECT_LIGHTING | Self::PATH,
-            "render" | "adaptive-mean" => Self::PIXEL,
+            "adaptive-mean" => Self::PIXEL,
             _ => Self::empty(),
         }
     }
@@ -137,6 +138,16 @@ mod tests {
         assert_eq!(needed.within(Components::BSDF), None);
         assert_eq!(Components::BOX_TEST.within(Components::TRAVERSAL), Some(Components::TRAVERSAL));
         assert_eq!(Components::RANDOM_NUMBERS.within(takes), None);
+    }
+
+    #[test]
+    fn every_question_but_that_for_a_picture_asks_for_a_component() {
+        let requests = crate::contract::question::QUESTIONS.iter().flat_map(|it| it.requests());
+        let [lent, whole]: [Vec<_>; 2] =
+            requests.partition::<Vec<_>, _>(|it| !Components::of_request(it).is_empty()).into();
+        assert_eq!(whole, ["render", "render-codes"]);
+        let asked_for: Components = lent.iter().map(|it| Components::of_request(it)).collect();
+        assert_eq!(asked_for, Components::all() - Components::RANDOM_NUMBERS);
     }
 
     #[test]

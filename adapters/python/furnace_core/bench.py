@@ -5,7 +5,7 @@
     if bench.has("bsdf"):
         f, pdf = bench.eval_bsdf(material, wo, wi)
 
-`bench` has the methods of `Core` and `Built`, with the same arguments and answers, as a right core answers them that
+`bench` has the methods of `Core` and `Built` but `render`, with the same arguments and answers, as a right core answers them that
 follows your conventions. A call is a message and its answer, some tenths of a millisecond: ask for many elements at once.
 """
 
@@ -59,8 +59,10 @@ def method_of(question):
     return asked
 
 
+# A picture is none of them: with the bench's as a whole nothing would be the core's own.
 for question in (*methods(Core).values(), *methods(Built).values()):
-    setattr(Bench, question.__name__, method_of(question))
+    if question.component or question is Built.radiance:
+        setattr(Bench, question.__name__, method_of(question))
 
 bench = Bench()
 
@@ -125,6 +127,4 @@ def received(question, answer, told):
     """An answer of the bench's as a core's own method gives it."""
     if question.request == "eval-bsdf":
         return told[0]["f"], told[0]["pdf"]
-    if question.request == "render":
-        return tuple(told)
     return (told[0], answer["stats"]) if question.tells_stats else told[0]

@@ -31,17 +31,14 @@ macro_rules! by_names {
         impl<'de> serde::Deserialize<'de> for $flags {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 let names = Vec::<String>::deserialize(deserializer)?;
-                let unknown = |problem: String| {
-                    let all = Self::all().names();
-                    let is_known = |name: &&String| all.contains(*name);
-                    let wrong = names.iter().find(|name| !is_known(name));
-                    let hint = wrong.and_then(|name| {
-                        crate::text::did_you_mean(name, all.iter().map(String::as_str))
-                    });
-                    hint.map_or(problem.clone(), |hint| format!("{problem}: {hint}"))
-                };
+                let known = Self::all().names();
+                let wrong = names.iter().find(|name| !known.contains(name));
+                let meant = wrong.and_then(|name| {
+                    crate::text::did_you_mean(name, known.iter().map(String::as_str))
+                });
+                let hint = meant.map_or_else(String::new, |meant| format!(": {meant}"));
                 Self::from_names(&names)
-                    .map_err(|problem| serde::de::Error::custom(unknown(problem)))
+                    .map_err(|problem| serde::de::Error::custom(format!("{problem}{hint}")))
             }
         }
     };

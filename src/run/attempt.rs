@@ -160,8 +160,11 @@ fn take(core: &mut dyn Core, with: Components) -> Result<(), CoreError> {
     if with.is_empty() {
         return Ok(());
     }
+    let missing = with.difference(core.info().components);
     Validated::new(core).take_components(with).map_err(|error| match error {
-        CoreError::Unsupported(_) => CoreError::Beyond(format!("the bench's {}", with.in_words())),
+        CoreError::Unsupported(_) => {
+            CoreError::Beyond(format!("the bench's {}", missing.in_words()))
+        }
         other => other,
     })
 }

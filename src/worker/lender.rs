@@ -70,7 +70,7 @@ impl Lender {
         let within = is_within_a_scene(&question);
         let desk = if within { &mut self.within_scene } else { &mut self.without_scene };
         desk.relay(asked, core).map_err(|error| match error {
-            FrameError::Malformed(why) => nonsense(&question, &why),
+            FrameError::Malformed(why) | FrameError::Unknown(why) => nonsense(&question, &why),
             error => error.into(),
         })
     }

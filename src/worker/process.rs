@@ -89,7 +89,7 @@ impl Worker {
         let Started { child, channel, hang_up } =
             start_with_channel(command, writer).map_err(failed)?;
         let limits = spec.limits;
-        let (origin, folder) = (spec.origin.clone(), spec.scratch.clone());
+        let folder = spec.scratch.clone();
         let guard = Guard::new(child, spec, hang_up);
         let mut worker = Self {
             client: Client::new(channel),
@@ -106,7 +106,7 @@ impl Worker {
         match worker.meet(&limits) {
             Ok(()) => Ok(worker),
             Err(error) => {
-                let printed = origin.retold(&worker.printed(), &folder);
+                let printed = launch.worker.origin.retold(&worker.printed(), &folder);
                 Err(StartError::Core { error, printed })
             }
         }

@@ -249,7 +249,10 @@ impl Measure {
     fn why_open(&self) -> Option<String> {
         let noise =
             |r| format!("too noisy to be judged: an error below {} goes unseen", percent(r));
-        let why = self.doubt.map(|doubt| doubt.to_string()).or_else(|| self.resolution.map(noise));
+        let dark = || "only 0 was measured, which proves nothing".to_owned();
+        let is_dark = self.measured == 0.0 && self.expected == 0.0;
+        let why = self.doubt.map(|doubt| doubt.to_string());
+        let why = why.or_else(|| self.resolution.map(noise)).or_else(|| is_dark.then(dark));
         Some(format!("{}: {}", self.name(), why?))
     }
 
@@ -532,6 +535,9 @@ mod tests {
         let noisy = Measure { verdict, resolution: Some(0.3), ..Measure::none("radiance", 0) };
         let statement = Finding::of("all is right", "", vec![noisy]).statement;
         assert_eq!(statement, "radiance: too noisy to be judged: an error below 30 % goes unseen");
+        let dark = Measure { verdict, ..Measure::none("radiance", 0) };
+        let statement = Finding::of("all is right", "", vec![dark]).statement;
+        assert_eq!(statement, "radiance: only 0 was measured, which proves nothing");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::shared::Shared;
 use super::{Degree, Evidence, Observation, RuledOut, Suspicion, differences, endings};
 use crate::case::{Part, Subject, Tier, asked_by};
 use crate::cause::{self, Cause};
+use crate::checks::law::LOST_SAMPLES;
 use crate::contract::{Circumstances, Components};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -53,6 +54,19 @@ pub struct Headline {
     pub command: String,
 }
 
+/// The laws of what failed. A share of lost samples may be half by chance, where half of the light is lost and half of the
+/// directions are dark in their own right: it is told of most of the light that failed, or not at all.
+fn laws<'e, 'a: 'e>(failures: impl Iterator<Item = &'e Observation<'a>>) -> Vec<String> {
+    let (mut laws, mut light, mut losing) = (Vec::new(), 0, 0);
+    for (failure, finding) in failures.filter_map(|failure| Some((failure, failure.finding?))) {
+        light += usize::from(failure.is_about_light() && !failure.is_dark());
+        losing += usize::from(finding.laws.iter().any(|law| law == LOST_SAMPLES));
+        laws.extend(finding.laws.iter().cloned());
+    }
+    laws.retain(|law| law != LOST_SAMPLES || 2 * losing > light);
+    laws
+}
+
 impl Headline {
     /// Graded failures that differ, and no cause yet.
     pub(super) fn of(
@@ -63,8 +77,7 @@ impl Headline {
         let command = quickest(evidence, &explains, &sentences);
         sentences.dedup();
         sentences.truncate(EVIDENCE);
-        let findings = explains.iter().filter_map(|case| evidence.failure_of(case)?.finding);
-        let laws = findings.flat_map(|finding| finding.laws.clone()).collect();
+        let laws = laws(explains.iter().filter_map(|case| evidence.failure_of(case)));
         Self {
             degree: Degree::DiffersHere,
             laws,
@@ -704,6 +717,7 @@ fn quickest(evidence: &Evidence<'_>, cases: &[String], sentences: &[String]) -> 
 mod tests {
     use crate::case::{Foundation, Tier};
     use crate::cause::{bsdf, bvh, contract, image, integrator, light, shape};
+    use crate::checks::law::LOST_SAMPLES;
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Degree, diagnose};
     use crate::image::Channel;
@@ -712,6 +726,21 @@ mod tests {
     fn nothing_failed_and_nothing_is_blamed() {
         let made = Made::new().with("bsdf/a", passing());
         assert_eq!(diagnose(&made.evidence()), super::Diagnosis::default());
+    }
+
+    #[test]
+    fn samples_are_lost_in_most_of_the_light_that_fails_or_nowhere() {
+        let half = || means(vec![mean("bounce 1", Channel::Red, 0.5, 0.5, 0.001)]);
+        let losing = || half().knowing_laws([LOST_SAMPLES.to_owned()]);
+        let told = |others: usize| {
+            let mut made = Made::new().with("light/a", losing()).with("light/b", losing());
+            for number in 0..others {
+                made = made.with(&*format!("light/c{number}"), half());
+            }
+            diagnose(&made.evidence()).headlines[0].mistake.contains(LOST_SAMPLES)
+        };
+        assert!(told(0) && told(1));
+        assert!(!told(2) && !told(9));
     }
 
     #[test]

@@ -116,10 +116,12 @@ impl Comparison<'_> {
 
 /// A measured difference as a share of what was subtracted.
 pub(super) fn relative(measure: Measure, scale: f64) -> Measure {
+    // Of darkness, too, nothing is nothing.
+    let share = |value: f64| if value == 0.0 { 0.0 } else { value / scale };
     Measure {
-        measured: measure.measured / scale,
-        allowed: measure.allowed / scale,
-        interval: measure.interval.map(|interval| interval.map(|end| end / scale)),
+        measured: share(measure.measured),
+        allowed: share(measure.allowed),
+        interval: measure.interval.map(|interval| interval.map(share)),
         unit: "of the mean".to_owned(),
         ..measure
     }

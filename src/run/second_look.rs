@@ -17,6 +17,8 @@ use crate::stats::{Allowance, Budget};
 
 /// How much the second look may ask one core, as a share of what its trials did.
 const SHARE: f64 = 0.75;
+/// Seconds of the textbook core that each broken component may always be asked.
+const LEAST_FOR_EACH: u64 = 10;
 
 /// What is seen of a core with one of its broken components.
 pub(crate) struct SecondLook {
@@ -38,16 +40,22 @@ pub(crate) fn look_again(
 ) -> Vec<SecondLook> {
     let broken: Components = transplants.components.iter().map(|one| one.component).collect();
     let of_core = || records.iter().filter(|record| record.core == core.spec);
-    let purse = Purse::of_share(SHARE, LEAST, of_core());
+    let least = LEAST.max(LEAST_FOR_EACH * broken.iter().count() as u64);
+    let purse = Purse::of_share(SHARE, least, of_core());
     let bench = without_patience(bench);
     let allowance = Allowance { budget: Budget::Quick, ..bench.allowance };
     let quick = Bench { allowance, ..bench.clone() };
+    // Should there be too little for all, it is for what its rules look at, and for the longest.
     let telling = |own: Components| -> Vec<_> {
         let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
         let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
-        of_core().filter(|record| has_no_answer(record)).filter(tells).collect()
+        let mut told: Vec<_> =
+            of_core().filter(|record| has_no_answer(record)).filter(tells).collect();
+        told.sort_by_key(|record| (!is_of_own(record), price(record)));
+        told
     };
-    let view = |(own, told): (Components, Vec<&TrialRecord>)| {
+    let view = |((own, told), others): ((Components, Vec<&TrialRecord>), usize)| {
+        purse.keep_for(others);
         let of_own = told.iter().filter(|record| is_of(plan, record, own, transplants));
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
@@ -62,10 +70,11 @@ pub(crate) fn look_again(
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
-    // One with many cases may take all there is: those with few come first.
+    // Each has its share, and what those with few cases leave of theirs is for the others.
     let mut told: Vec<_> = broken.iter().map(|own| (own, telling(own))).collect();
     told.sort_by_key(|(_, told)| told.len());
-    let mut views: Vec<_> = told.into_iter().map(view).collect();
+    let others = (0..told.len()).rev();
+    let mut views: Vec<_> = told.into_iter().zip(others).map(view).collect();
     views.sort_by_key(|view| view.own.bits());
     views
 }

@@ -60,13 +60,14 @@ pub(crate) fn look_again(
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
             let record = told[number];
-            // Of a case that one component mends those that are made of it stay the core's: with theirs it is not asked.
+            // Of a case that one component mends those that are made of it stay the core's, with the bench's it is not asked;
+            // but it was asked beside those that the case took in the run.
             let hides = |one: &Components| one.is_made_of(own);
             let hiding: Components = match transplants.place_of(&record.case) == Some(own) {
                 true => broken.iter().filter(hides).collect(),
                 false => Components::empty(),
             };
-            again(plan, [&quick, &bench], record, (record.with | broken) - own - hiding)
+            again(plan, [&quick, &bench], record, (record.with | (broken - hiding)) - own)
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };

@@ -49,6 +49,7 @@ pub(crate) fn diagnose_apart(
     let hidden = first.all_failures().map(|seen| seen.case).filter(|case| !shown(case));
     let (of_views, left): (Vec<_>, Vec<_>) =
         hidden.partition(|case| views.iter().any(|view| view.mends(case)));
+    let for_the_rest = usize::from(!left.is_empty());
     let left = first.with_failures_of(&left);
     let broken: Components = views.iter().map(|view| view.own).collect();
     let made_in = match broken.is_empty() {
@@ -62,7 +63,7 @@ pub(crate) fn diagnose_apart(
     let sifted: Vec<_> = order.iter().map(|number| views[*number].sifted(planted)).collect();
     let left = Sifted::of(&left, planted, made_in);
     let searched = order.iter().zip(sifted).enumerate().map(|(done, (number, sifted))| {
-        planted.keep_for(order.len() - done);
+        planted.keep_for(order.len() - 1 - done + for_the_rest);
         (number, sifted.and_searched())
     });
     let searched: BTreeMap<_, _> = searched.collect();

@@ -113,10 +113,14 @@ fn ways(finding: &Finding) -> BTreeSet<&str> {
     finding.clues.iter().map(|clue| &clue.cause[..]).collect()
 }
 
-/// Whether both broke the contract, and in the same way.
+/// Whether both broke the contract, and in the same way: one that has a name, or else in the same words, numbers included
+/// (`hit 3 of 432: shape 1 has no primitive 1002`).
 fn broke_alike(core: &Finding, planted: &Finding) -> bool {
-    let have_no_numbers = core.measures.is_empty() && planted.measures.is_empty();
-    have_no_numbers && !core.clues.is_empty() && ways(core) == ways(planted)
+    let have_no_measures = core.measures.is_empty() && planted.measures.is_empty();
+    let is_named = !core.clues.is_empty();
+    let has_numbers = core.statement.contains(|letter: char| letter.is_ascii_digit());
+    let is_to_the_letter = has_numbers && planted.failed() && core.statement == planted.statement;
+    have_no_measures && ways(core) == ways(planted) && (is_named || is_to_the_letter)
 }
 
 /// Of what failed without a number: nothing is known of its size.
@@ -247,6 +251,9 @@ mod tests {
         assert_eq!(likeness(Some(&two(2.0, 1.0)), &two(1.0, 2.0)), Likeness::Other);
         assert_eq!(likeness(Some(&two(0.02, 1.0)), &two(0.0, 1.0)), Likeness::Alike, "not dark");
         assert_eq!(likeness(Some(&failing("lost")), &failing("lost")), Likeness::Unsized);
+        let index = |number: u32| failing(&format!("shape 1 has no primitive {number}"));
+        assert_eq!(likeness(Some(&index(7)), &index(7)), Likeness::Same);
+        assert_eq!(likeness(Some(&index(7)), &index(8)), Likeness::Unsized);
         let infinite = || failing("inf").because(&contract::INFINITE, "inf");
         let not_a_number = failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");
         assert_eq!(likeness(Some(&infinite()), &infinite()), Likeness::Same);

@@ -656,7 +656,8 @@ impl<'a> Proof<'a> {
         let all_but = |left_out: &Mistake| -> Vec<_> {
             set.iter().filter(|one| one.name != left_out.name).copied().collect()
         };
-        let answers = self.compare(&set.iter().map(all_but).collect::<Vec<_>>(), cases);
+        let sets: Vec<_> = set.iter().map(all_but).collect();
+        let answers = likenesses(cases, &self.weighed(&sets, cases));
         for (suspicion, without) in found.iter_mut().zip(answers) {
             let needs = cases.iter().zip(without).filter(|(_, l)| *l != Likeness::Same);
             suspicion.cases = needs.map(|(seen, _)| seen.case.to_owned()).collect();

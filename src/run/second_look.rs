@@ -45,7 +45,7 @@ pub(crate) fn look_again(
     let bench = without_patience(bench);
     let allowance = Allowance { budget: Budget::Quick, ..bench.allowance };
     let quick = Bench { allowance, ..bench.clone() };
-    // Should there be too little for all, it is for what its rules look at, and for the longest.
+    // Its own cases come first, and the cheapest of them: should there be too little for all, the others go without.
     let telling = |own: Components| -> Vec<_> {
         let is_of_own = |record: &TrialRecord| is_of(plan, record, own, transplants);
         let tells = |record: &&TrialRecord| is_of_own(record) || is_seen_by_rules(record);
@@ -60,14 +60,8 @@ pub(crate) fn look_again(
         let of_own = of_own.map(|record| record.case.clone()).collect();
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
             let record = told[number];
-            // Of a case that one component mends those that are made of it stay the core's, with the bench's it is not asked;
-            // but it was asked beside those that the case took in the run.
-            let hides = |one: &Components| one.is_made_of(own);
-            let hiding: Components = match transplants.place_of(&record.case) == Some(own) {
-                true => broken.iter().filter(hides).collect(),
-                false => Components::empty(),
-            };
-            again(plan, [&quick, &bench], record, (record.with | (broken - hiding)) - own)
+            let is_mended = transplants.place_of(&record.case) == Some(own);
+            again(plan, [&quick, &bench], record, beside(own, is_mended, broken, record.with))
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
@@ -78,6 +72,14 @@ pub(crate) fn look_again(
     let mut views: Vec<_> = told.into_iter().zip(others).map(view).collect();
     views.sort_by_key(|view| view.own.bits());
     views
+}
+
+/// What is the bench's where one of the `broken` components is the core's own. Of a case that it mends those that are made
+/// of it stay the core's: with the bench's it is not asked. It was asked beside those that the case took in the run.
+fn beside(own: Components, is_mended: bool, broken: Components, taken: Components) -> Components {
+    let hides = |one: &Components| is_mended && one.is_made_of(own);
+    let hiding: Components = broken.iter().filter(hides).collect();
+    (taken | (broken - hiding)) - own
 }
 
 /// Whether a case asks about `own` or is mended by it.
@@ -126,4 +128,20 @@ fn again(
     // the core did not take after all.
     let tells = seen.outcome.status() != Status::TimedOut && own.is_empty();
     (tells.then_some(seen), price_of_all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_hides_a_component_is_the_cores_unless_the_run_had_taken_it() {
+        let (own, bsdf) = (Components::DIRECTION_SAMPLING, Components::BSDF);
+        let broken = own | bsdf | Components::BOX_TEST;
+        let nothing = Components::empty();
+        assert_eq!(beside(own, false, broken, nothing), bsdf | Components::BOX_TEST);
+        assert_eq!(beside(own, true, broken, nothing), Components::BOX_TEST);
+        assert_eq!(beside(own, true, broken, bsdf), bsdf | Components::BOX_TEST);
+        assert_eq!(beside(bsdf, true, broken, bsdf), own | Components::BOX_TEST);
+    }
 }

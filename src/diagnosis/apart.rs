@@ -49,7 +49,7 @@ pub(crate) fn diagnose_apart(
     let hidden = first.all_failures().map(|seen| seen.case).filter(|case| !shown(case));
     let (of_views, left): (Vec<_>, Vec<_>) =
         hidden.partition(|case| views.iter().any(|view| view.mends(case)));
-    let for_the_rest = usize::from(!left.is_empty());
+    let for_the_rest = usize::from(!of_views.is_empty() || !left.is_empty());
     let left = first.with_failures_of(&left);
     let broken: Components = views.iter().map(|view| view.own).collect();
     let made_in = match broken.is_empty() {

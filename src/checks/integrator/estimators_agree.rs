@@ -116,7 +116,7 @@ impl Comparison<'_> {
 
 /// A measured difference as a share of what was subtracted.
 pub(super) fn relative(measure: Measure, scale: f64) -> Measure {
-    // Of darkness, too, nothing is nothing.
+    // Of a dark mean no difference is none, and 0 / 0 would be NaN.
     let share = |value: f64| if value == 0.0 { 0.0 } else { value / scale };
     Measure {
         measured: share(measure.measured),

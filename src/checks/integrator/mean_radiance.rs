@@ -84,7 +84,7 @@ impl Check for MeanRadiance {
 
     fn run(&self, context: &mut Context<'_>) -> Result<Finding> {
         let scene = context.scene()?;
-        let (seed, effort) = (context.seed, context.effort(self.detects, self.at_most));
+        let (seed, mut effort) = (context.seed, context.effort(self.detects, self.at_most));
         let mut built = context.core.build_scene(&scene, Acceleration::DEFAULT)?;
         let (info, brightest) = (context.info.clone(), brightest(&scene));
         let mut rows = Vec::new();
@@ -105,6 +105,7 @@ impl Check for MeanRadiance {
                 if context.budget.stops_at_failure {
                     break;
                 }
+                effort = effort.beside_a_failure();
             }
         }
         let causes: Vec<_> =
@@ -199,5 +200,40 @@ fn statement(measures: &[Measure]) -> String {
                 percent(departure(worst)),
             )
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::fake::Fake;
+    use crate::checks::testing::{check_of, try_judge};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    /// Paths that a black core is asked for in a case of so many rows.
+    fn paths(rows: usize) -> u64 {
+        let row = "[[expect.row]]\nbounces = [0, 1]\nradiance = 0.5\n";
+        let check: MeanRadiance = check_of(&format!(
+            "[expect]\nray = {{ from = [0, 0, 0], toward = [0, 0, 1] }}\n\
+             detects = \"2 %\"\nat-most = \"1 M paths\"\n{}",
+            row.repeat(rows)
+        ));
+        let asked = Arc::new(AtomicU64::new(0));
+        let count = Arc::clone(&asked);
+        let radiance = move |_: &mut _, _: &_| {
+            count.fetch_add(1, Ordering::Relaxed);
+            0.0
+        };
+        let mut core = Fake { radiance: Box::new(radiance), ..Fake::default() };
+        let finding = try_judge(&check, &mut core, Some(SceneDescription::default())).unwrap();
+        assert_eq!(finding.failed_measures().count(), 3 * rows);
+        asked.load(Ordering::Relaxed)
+    }
+
+    #[test]
+    fn rows_after_the_first_that_fails_take_a_quarter_of_its_paths() {
+        let first = paths(1);
+        assert!(4 * (paths(2) - first) < first, "{first}");
     }
 }

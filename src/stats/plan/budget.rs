@@ -19,6 +19,9 @@ pub struct Effort {
     /// Whether means are tested for gross errors before they are tested for `detects`: what fails
     /// there is known soon, and less precisely.
     pub(crate) coarse_first: bool,
+    /// Whether nobody is judged by it any more: a mean that is grossly too low is confirmed on fewer samples, which may miss
+    /// what happens once in 30 000.
+    pub(crate) in_a_hurry: bool,
 }
 
 impl Effort {
@@ -29,7 +32,13 @@ impl Effort {
 
     /// The effort that sees an error of `detects`, relative to the scale of the claim.
     pub(crate) fn new(detects: f64) -> Self {
-        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1, coarse_first: false }
+        let (coarse_first, in_a_hurry) = (false, false);
+        Self { detects, most_samples: 4_000_000, runs: 64, grain: 1, coarse_first, in_a_hurry }
+    }
+
+    /// The same where something of the trial has failed already.
+    pub(crate) fn beside_a_failure(self) -> Self {
+        Self { in_a_hurry: true, ..self }
     }
 
     /// The effort that sees gross errors alone, if those are to be looked for first.
@@ -73,6 +82,7 @@ impl Allowance {
             detects: detects * self.coarseness(),
             most_samples: self.samples(most_samples),
             coarse_first: self.stops_at_failure,
+            in_a_hurry: self.stops_at_failure || self.judges_alone,
             ..effort
         }
     }

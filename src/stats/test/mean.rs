@@ -140,7 +140,7 @@ impl<E> Judging<'_, E> {
     /// Samples of the second or third stage. They may follow from what earlier stages saw, for each
     /// stage is judged on fresh samples: what is grossly wrong needs few of them.
     fn confirming_samples(&self, stage: Stage) -> u64 {
-        let in_a_hurry = self.effort.coarse_first;
+        let in_a_hurry = self.effort.in_a_hurry;
         let needed =
             self.tests.iter().filter_map(|test| test.confirming_samples(stage, in_a_hurry));
         let cap = self.effort.most_samples.saturating_mul(stage.factor());

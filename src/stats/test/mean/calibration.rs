@@ -247,7 +247,7 @@ fn gross_errors_take_no_more_samples_than_it_takes_to_pass() {
 
 /// The median over seven seeds of the samples that a verdict took.
 fn samples_to_a_verdict(law: &Law, gain: f64, coarse_first: bool) -> u64 {
-    let effort = Effort { coarse_first, ..Effort::new(0.02) };
+    let effort = Effort { coarse_first, in_a_hurry: coarse_first, ..Effort::new(0.02) };
     let of_seed = |number| {
         let mut draw = runs(Seed(number), gain, law.sample);
         let claim = Claim::value(law.mean, Band::RADIANCE);

@@ -99,7 +99,7 @@ fn light(share: f64) -> impl Fn(&mut Stream) -> f64 {
 }
 
 fn hasty() -> Effort {
-    Effort { coarse_first: true, ..Effort::new(0.02) }
+    Effort { coarse_first: true, in_a_hurry: true, ..Effort::new(0.02) }
 }
 
 #[test]
@@ -112,6 +112,20 @@ fn gross_errors_on_either_side_take_half_the_samples_where_that_is_wanted() {
         assert!(2 * hasty.samples < thorough.samples, "{share}: {hasty:?}");
         assert!(hasty.false_alarm > thorough.false_alarm);
     }
+}
+
+#[test]
+fn beside_a_failure_darkness_takes_a_quarter_of_the_samples_and_a_right_core_as_many_as_ever() {
+    let claim = Claim::value(1.0, Band::RADIANCE);
+    let effort = Effort::new(0.02);
+    let judged = |share: f64, effort| judge(claim, &effort, SEED, light(share));
+    let both = |share: f64| [effort, effort.beside_a_failure()].map(|e| judged(share, e));
+    let [thorough, beside] = both(0.0);
+    assert_eq!([thorough.verdict, beside.verdict], [Verdict::Fail; 2]);
+    assert!(4 * beside.samples < thorough.samples, "{beside:?}, {thorough:?}");
+    assert_eq!(beside.false_alarm, thorough.false_alarm);
+    let [thorough, beside] = both(0.1);
+    assert_eq!((thorough.verdict, thorough.samples), (Verdict::Pass, beside.samples));
 }
 
 #[test]

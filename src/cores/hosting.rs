@@ -5,9 +5,10 @@ use super::dylib::LoadError;
 use super::remote::Remote;
 use crate::contract::{Components, Core};
 use crate::worker::{
-    Confinement, CoreOrigin, CpuClock, Launch, Limits, Patience, StartError, WorkerSpec,
+    Confinement, CoreOrigin, CpuClock, Launch, Limits, Patience, StartError, WorkerSpec, crowding,
 };
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// How cores are hosted in a run.
 #[derive(Clone, Debug)]
@@ -120,6 +121,16 @@ impl Hosted {
         match self {
             Self::Here(core) => core.as_mut(),
             Self::Away(remote) => remote.as_mut(),
+        }
+    }
+
+    /// The time after which a core in this process is asked nothing more in a trial: longer where other programs want the
+    /// processors, too. A worker is watched while it answers.
+    pub(crate) fn time_limit(&self, limits: Limits) -> Option<Duration> {
+        let crowded = || limits.seconds.map(|seconds| seconds * crowding());
+        match self {
+            Self::Here(_) => Some(Limits { seconds: crowded(), ..limits }.time()),
+            Self::Away(_) => None,
         }
     }
 

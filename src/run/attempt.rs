@@ -143,7 +143,10 @@ fn attempt_hosted(bench: &Bench, trial: &Trial, with: Components) -> Tried {
     match bench.hosting.in_case(&trial.case.id).host(&trial.core) {
         Ok(mut hosted) => {
             let attempt = match take(hosted.core_mut(), with) {
-                Ok(()) => attempt(bench, &trial.case, hosted.core_mut()),
+                Ok(()) => {
+                    let work = Work::within(hosted.time_limit(bench.hosting.limits));
+                    attempt_counted(bench, &trial.case, hosted.core_mut(), work)
+                }
                 Err(error) => Attempt::without_core(&trial.case, CheckError::Core(error)),
             };
             Tried { attempt, printed: hosted.printed(), unasked: hosted.unasked() }
@@ -235,9 +238,12 @@ impl Attempt {
 
 /// Puts one case to one core, whoever made it.
 pub fn attempt(bench: &Bench, case: &Case, core: &mut dyn Core) -> Attempt {
+    attempt_counted(bench, case, core, Work::default())
+}
+
+fn attempt_counted(bench: &Bench, case: &Case, core: &mut dyn Core, work: Work) -> Attempt {
     let mut pictures = Vec::new();
     let mut scene = None;
-    let work = Work::default();
     let tier = case.tier_on(core.info().capabilities);
     let result = load_scene(bench, case).and_then(|loaded| {
         scene = loaded.as_deref().map(|scene| stamp(scene, &bench.motion_of(case)));

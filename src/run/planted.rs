@@ -2,10 +2,11 @@
 
 use super::attempt::run_with;
 use super::bench::Bench;
+use super::outcome::Status;
 use super::plan::{Plan, Trial};
 use super::purse::{Purse, price};
 use super::record::TrialRecord;
-use super::search::is_gross;
+use super::search::{is_gross, without_patience};
 use crate::case::Subject;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -71,6 +72,8 @@ pub(super) struct PlantedFaults<'a> {
     mistakes: Vec<Mistake>,
     purse: Purse,
     known: Mutex<BTreeMap<Asked, Option<Finding>>>,
+    /// Mistakes that make the core so slow that it was not waited for. Whoever answers is not that slow.
+    silent: Mutex<BTreeSet<String>>,
     /// First pictures, as words.
     glances: Mutex<BTreeMap<Asked, Option<String>>>,
 }
@@ -106,6 +109,7 @@ impl<'a> PlantedFaults<'a> {
             caught_by: fault.caught_by,
         };
         let mistakes = fault::all().map(mistake).collect();
+        let bench = &without_patience(bench);
         let allowance = Allowance { judges_alone: true, ..bench.allowance };
         let quick = Allowance { budget: Budget::Quick, ..allowance };
         let quickly = Looks::of(bench, quick);
@@ -125,6 +129,7 @@ impl<'a> PlantedFaults<'a> {
             mistakes,
             purse: Purse::of_share(SHARE, least(records.clone(), broken), records),
             known: Mutex::default(),
+            silent: Mutex::default(),
             glances: Mutex::default(),
         }
     }
@@ -178,19 +183,29 @@ impl<'a> PlantedFaults<'a> {
         answer
     }
 
-    /// Mistakes that exclude each other, and cases that were not selected, have no answer.
+    /// Mistakes that exclude each other, those that take too long, and cases that were not selected, have no answer.
     fn run(
         &self,
         (core, case, with, _): &Asked,
         look: fn(&Looks) -> &Bench,
     ) -> (Option<Finding>, u64) {
+        if self.silent().contains(core) {
+            return (None, 0);
+        }
         let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
-        let (Some(case), Ok(core)) = (case, core.parse()) else { return (None, 0) };
-        let trial = Trial { case: Arc::clone(&case.case), core };
+        let (Some(case), Ok(spec)) = (case, core.parse()) else { return (None, 0) };
+        let trial = Trial { case: Arc::clone(&case.case), core: spec };
         let is_subtle = self.subtle.contains(&trial.case.id);
         let bench = look(if is_subtle { &self.as_the_core } else { &self.quickly });
         let ended = run_with(bench, &trial, *with).record;
+        if ended.outcome.status() == Status::TimedOut {
+            self.silent().insert(core.clone());
+        }
         (ended.outcome.finding().cloned(), price(&ended))
+    }
+
+    fn silent(&self) -> MutexGuard<'_, BTreeSet<String>> {
+        self.silent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn glances(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<String>>> {
@@ -258,16 +273,36 @@ mod tests {
     use crate::case;
     use crate::project::Project;
     use crate::run::Request;
+    use crate::run::purse::LONGEST_TRIAL;
 
     const PICTURE: &str = "image/point-light-plane-matches-mitsuba";
 
-    #[test]
-    fn a_mistake_that_leaves_a_picture_as_it_is_is_answered_by_the_right_core() {
+    /// The right core and one case, quickly.
+    fn plan_of(case: &str) -> Plan {
         let project = Project::at(std::path::Path::new(env!("CARGO_MANIFEST_DIR")));
         let cases = case::load_all(&project.cases()).unwrap();
-        let (cores, filters) = (vec!["textbook".parse().unwrap()], vec![PICTURE.to_owned()]);
+        let (cores, filters) = (vec!["textbook".parse().unwrap()], vec![case.to_owned()]);
         let request = Request { cores, filters, budget: Budget::Quick, ..Request::default() };
-        let plan = Plan::new(project, request, &cases).unwrap();
+        Plan::new(project, request, &cases).unwrap()
+    }
+
+    #[test]
+    fn a_mistake_that_took_too_long_is_not_asked_again() {
+        const CASE: &str = "bvh/triangle-soup-hits-match-brute-force";
+        let plan = plan_of(CASE);
+        let mut bench = plan.bench();
+        bench.hosting.limits.seconds = Some(1e-9);
+        let planted = PlantedFaults::new(&plan, &bench, [].iter(), 0);
+        let slow = "textbook:leaf-tests-everything".to_owned();
+        let asked = (slow, CASE.to_owned(), Components::empty(), false);
+        let (answer, price) = planted.try_out(&asked);
+        assert!(answer.is_none() && price >= LONGEST_TRIAL);
+        assert_eq!(planted.try_out(&asked), (None, 0));
+    }
+
+    #[test]
+    fn a_mistake_that_leaves_a_picture_as_it_is_is_answered_by_the_right_core() {
+        let plan = plan_of(PICTURE);
         let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter(), 0);
         let asked = |core: &str| (core.to_owned(), PICTURE.to_owned(), Components::empty(), true);
         let statement = |finding: Option<Finding>| finding.unwrap().statement;

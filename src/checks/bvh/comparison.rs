@@ -7,6 +7,9 @@ use crate::checks::{CheckError, Context};
 use crate::contract::{Acceleration, BuiltScene, Hit, Ray};
 use crate::scene::SceneDescription;
 
+/// Rays asked in one call: enough to keep threads busy, and time is looked at between calls.
+const RAYS_PER_CALL: usize = 4096;
+
 /// What is asked with and without a BVH.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Questions {
@@ -41,8 +44,23 @@ pub(crate) fn closest_hits(
     rays: &[Ray],
 ) -> Result<Vec<Hit>, CheckError> {
     let mut hits = vec![Hit::MISS; rays.len()];
-    scene.intersect(rays, &mut hits)?;
+    for (rays, hits) in rays.chunks(RAYS_PER_CALL).zip(hits.chunks_mut(RAYS_PER_CALL)) {
+        scene.intersect(rays, hits)?;
+    }
     Ok(hits)
+}
+
+/// Which segments are occluded.
+pub(super) fn occlusions(
+    scene: &mut dyn BuiltScene,
+    segments: &[Ray],
+) -> Result<Vec<bool>, CheckError> {
+    let mut occluded = vec![false; segments.len()];
+    let calls = segments.chunks(RAYS_PER_CALL).zip(occluded.chunks_mut(RAYS_PER_CALL));
+    for (segments, occluded) in calls {
+        scene.occluded(segments, occluded)?;
+    }
+    Ok(occluded)
 }
 
 /// Those with or without a BVH of the core.
@@ -59,8 +77,7 @@ impl Questions {
     pub(crate) fn ask(&self, scene: &mut dyn BuiltScene) -> Result<Answers, CheckError> {
         let rays = closest_hits(scene, &self.rays)?;
         let segments = closest_hits(scene, &self.segments)?;
-        let mut occluded = vec![false; self.segments.len()];
-        scene.occluded(&self.segments, &mut occluded)?;
+        let occluded = occlusions(scene, &self.segments)?;
         Ok(Answers { rays, segments, occluded })
     }
 

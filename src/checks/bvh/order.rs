@@ -1,6 +1,6 @@
 //! Scenes with their triangles in another order, and how the answers to them differ.
 
-use super::comparison::closest_hits;
+use super::comparison::{closest_hits, occlusions};
 use crate::checks::{CheckError, Context};
 use crate::contract::{Acceleration, Hit, Ray};
 use crate::math::Precision;
@@ -23,8 +23,7 @@ impl Answers {
         let segments = segments.unwrap_or_default();
         let mut built = context.core.build_scene(scene, Acceleration::DEFAULT)?;
         let hits = closest_hits(built.as_mut(), rays)?;
-        let mut occluded = vec![false; segments.len()];
-        built.occluded(segments, &mut occluded)?;
+        let occluded = occlusions(built.as_mut(), segments)?;
         Ok(Self { hits, occluded })
     }
 }

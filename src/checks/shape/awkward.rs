@@ -22,6 +22,9 @@ pub(super) struct Question {
 /// Which rays divide 0 by 0 at a triangle that is one.
 pub(super) const IN_PLANE: &str = "a ray in the plane of its triangle";
 
+/// Which rays all hit a triangle that is one, far from its edges.
+pub(super) const ANY_LENGTH: &str = "a direction of any length";
+
 const PROPER: [DVec3; 3] =
     [DVec3::new(0.25, 0.5, -0.25), DVec3::new(1.5, 0.75, 0.5), DVec3::new(-0.5, 1.25, 1.0)];
 
@@ -43,7 +46,7 @@ pub(super) fn questions(stream: &mut Stream) -> Vec<Question> {
     let proper = [
         (IN_PLANE, in_plane(stream)),
         ("a ray along an edge", along_edges(stream)),
-        ("a direction of any length", of_any_length(stream)),
+        (ANY_LENGTH, of_any_length(stream)),
     ];
     let primitive = triangle(PROPER);
     let proper = proper.map(|(name, rays)| Question { name, primitive, rays, may_hit: true });

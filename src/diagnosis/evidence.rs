@@ -76,6 +76,13 @@ impl Observation<'_> {
         let mut wrong = measures.filter(|measure| measure.failed()).peekable();
         wrong.peek().is_some() && wrong.all(Measure::is_degenerate)
     }
+
+    /// Whether all that is wrong is less than it should be.
+    pub(crate) fn is_too_weak(&self) -> bool {
+        let measures = self.finding.into_iter().flat_map(|finding| &finding.measures);
+        let mut wrong = measures.filter(|measure| measure.failed()).peekable();
+        wrong.peek().is_some() && wrong.all(|measure| measure.measured < measure.expected)
+    }
 }
 
 /// The findings of one core in one run, in the order of parts.

@@ -250,6 +250,7 @@ impl<'a> Proof<'a> {
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
         unfounded.extend(self.dark_and_not_alone(told, suspected));
+        unfounded.extend(self.dim_among_the_dark(told, suspected));
         unfounded.extend(self.unlike_in_their_own(told));
         unfounded.extend(self.following(told));
         unfounded
@@ -258,7 +259,7 @@ impl<'a> Proof<'a> {
     /// The cases of each headline that contradict its cause, planted alone and beside all others that are told.
     fn contradicted(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
-        let all: Vec<_> = told.iter().filter_map(|headline| self.of(headline).next()).collect();
+        let all: Vec<_> = told.iter().filter_map(|headline| self.likeliest(headline)).collect();
         told.iter().flat_map(|headline| self.contradicting(headline, &all)).collect()
     }
 
@@ -321,7 +322,7 @@ impl<'a> Proof<'a> {
         // That all others leave it dark where it is dark is enough here: they are told already.
         let is_superfluous = |one: &&&Headline| {
             let others = told.iter().filter(|other| other.cause != one.cause);
-            let others: Vec<_> = others.filter_map(|other| self.of(other).next()).collect();
+            let others: Vec<_> = others.filter_map(|other| self.likeliest(other)).collect();
             let cases = self.quickest(&one.explains);
             let is_given = || {
                 self.compare(slice::from_ref(&others), &cases)[0]
@@ -399,6 +400,28 @@ impl<'a> Proof<'a> {
         unsure.filter_map(all_of).flatten().collect()
     }
 
+    /// What the search has found of light that is too weak, where far more cases have none and its mistake leaves them right:
+    /// whatever takes that light takes this, too.
+    fn dim_among_the_dark(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let explained =
+            |case: &str| told.with_cause().any(|one| one.explains.iter().any(|own| own == case));
+        let dark = self.evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());
+        let dark = quickest(dark.filter(|seen| !explained(seen.case)), siblings::FAILED);
+        let is_dim = |one: &Headline| {
+            let mut seen = one.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+            seen.all(|seen| seen.is_about_light() && seen.is_too_weak())
+        };
+        let is_lost = |one: &&Headline| {
+            let sets: Vec<_> = self.of(one).map(|mistake| vec![mistake]).collect();
+            let answers = self.weighed(&sets, &dark);
+            let right =
+                (0..dark.len()).filter(|number| siblings::all_pass(&answers, *number)).count();
+            right >= siblings::OUTNUMBERED * one.explains.len().max(1)
+        };
+        let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
+        found.filter(|one| is_dim(one)).filter(is_lost).filter_map(all_of).flatten().collect()
+    }
+
     /// Whether its mistakes are wrong in the same places, and nowhere by as much.
     fn is_of_another_size(&self, headline: &Headline) -> bool {
         let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
@@ -429,7 +452,7 @@ impl<'a> Proof<'a> {
             let certain = self.of(headline).find(gives_own).filter(|_| is_clear(headline));
             let own = certain.map_or_else(Vec::new, |_| self.quickest(&headline.explains));
             let cases = [own, self.followers(headline, ranked)].concat();
-            let mistake = certain.or_else(|| self.of(headline).next())?;
+            let mistake = certain.or_else(|| self.likeliest(headline))?;
             let likely = headline.degree.max(Degree::LooksLike);
             let degree = certain.map_or(likely, |_| Degree::Named);
             suspicions(&[mistake], &cases, degree).pop().filter(|_| !cases.is_empty())
@@ -443,7 +466,7 @@ impl<'a> Proof<'a> {
             told.explains.iter().filter(|case| !given.contains(case)).cloned().collect()
         };
         let groups: Vec<_> = ranked.unnamed().map(left).collect();
-        let told: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let told: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
         let found = self.reproducing(&groups.concat(), &told);
         if !found.is_empty() || groups.len() < 2 {
             return found;
@@ -554,12 +577,58 @@ impl<'a> Proof<'a> {
             found = self.of_sets(&elsewhere, &cases, names);
         }
         if found.is_empty() {
+            found = self.in_their_own_places(&alone, names);
+        }
+        if found.is_empty() {
             found = self.darkening(&alone, &cases, names);
         }
         if found.is_empty() {
             found = self.nearly_reproducing(&[alone, likely, elsewhere].concat(), &many);
         }
         found
+    }
+
+    /// Mistakes that give the numbers of the cases written for them and of others, and fail none of the rest otherwise: what
+    /// they pass fails by something else, which nobody need know. Two that are seen in one case are none.
+    fn in_their_own_places(&self, alone: &[Vec<Mistake>], names: &[String]) -> Vec<Suspicion> {
+        let failing = names.iter().filter_map(|case| self.evidence.failure_of(case));
+        let beside = quickest(failing, siblings::FAILED);
+        let gives_its_own = |set: &&Vec<Mistake>| {
+            let own = names.iter().find(|case| *case == set[0].caught_by);
+            let own = own.and_then(|case| self.evidence.failure_of(case));
+            own.is_some_and(|own| !self.fitting(slice::from_ref(set), &[own]).is_empty())
+        };
+        let sets: Vec<_> = alone.iter().filter(gives_its_own).collect();
+        let all: Vec<_> =
+            sets.iter().filter_map(|set| Some((*set, self.places_of(set, &beside)?))).collect();
+        let is_seen_by_others = |set: &[Mistake], seen: &Observation<'_>| {
+            let others = all.iter().filter(|(other, _)| other[0].cause != set[0].cause);
+            others.flat_map(|(_, places)| places).any(|place| place.case == seen.case)
+        };
+        let found = all.iter().filter_map(|(set, places)| {
+            let is_alone = !places.iter().any(|seen| is_seen_by_others(set, seen));
+            let degree = degree(1, sets.len(), places).filter(|_| is_alone && places.len() > 1)?;
+            Some(suspicions(set, places, degree))
+        });
+        found.flatten().collect()
+    }
+
+    /// The cases of which a set gives the numbers; none where it fails one otherwise.
+    fn places_of<'s>(
+        &self,
+        set: &Vec<Mistake>,
+        cases: &[&'s Observation<'a>],
+    ) -> Option<Vec<&'s Observation<'a>>> {
+        let at_first = self.glimpsed(slice::from_ref(set), cases).remove(0);
+        let fails =
+            |(_, answer): &(_, Option<Finding>)| answer.as_ref().is_some_and(Finding::failed);
+        let failed: Vec<_> =
+            cases.iter().zip(at_first).filter(fails).map(|(seen, _)| *seen).collect();
+        let answers = self.compare(slice::from_ref(set), &failed).remove(0);
+        let is_otherwise = |of: &Likeness| matches!(of, Likeness::Alike | Likeness::Other);
+        let of_places = failed.into_iter().zip(&answers).filter(|(_, of)| **of == Likeness::Same);
+        let places = of_places.map(|(seen, _)| seen).collect();
+        (!answers.iter().any(is_otherwise)).then_some(places)
     }
 
     /// Where all that fails is dark, the only kind of mistake that leaves it dark, its own case among it. Darkness has no
@@ -748,7 +817,33 @@ impl<'a> Proof<'a> {
     /// A mistake of each cause that is named.
     fn named(&self, told: &Ranked) -> Vec<Mistake> {
         let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
-        named.filter_map(|headline| self.of(headline).next()).collect()
+        named.filter_map(|headline| self.likeliest(headline)).collect()
+    }
+
+    /// Of the planted mistakes of a headline's cause the one that gives its numbers, or else the first: a count is one too many
+    /// or one too few.
+    fn likeliest(&self, headline: &Headline) -> Option<Mistake> {
+        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let first = sets.first()?[0];
+        if sets.len() == 1 {
+            return Some(first);
+        }
+        let likely = self.likely_at_first(sets, &self.quickest(&headline.explains));
+        let mut likely = likely.into_iter().map(|set| set[0]);
+        likely.find(|one| self.is_reproduced(*one, headline)).or(Some(first))
+    }
+
+    /// Those sets that a first look at each case does not tell from the core.
+    fn likely_at_first(
+        &self,
+        sets: Vec<Vec<Mistake>>,
+        cases: &[&Observation<'a>],
+    ) -> Vec<Vec<Mistake>> {
+        let at_first = likenesses(cases, &self.glimpsed(&sets, cases));
+        let may_give = |(_, of_set): &(_, Vec<Likeness>)| {
+            of_set.iter().all(|likeness| likeness.may_be_reproduced())
+        };
+        sets.into_iter().zip(at_first).filter(may_give).map(|(set, _)| set).collect()
     }
 
     /// The planted mistakes of a headline's cause.
@@ -1072,6 +1167,68 @@ mod tests {
         ];
         expected.sort_unstable();
         assert_eq!(named, expected);
+    }
+
+    #[test]
+    fn of_two_mistakes_of_a_cause_the_one_that_is_there_stands_beside_the_next() {
+        const MORE: Mistake = mistake("more", &bsdf::WITHOUT_PI, "bsdf/a");
+        const LESS: Mistake = mistake("less", &bsdf::WITHOUT_PI, "bsdf/a");
+        let seen = light(4.0).because(&bsdf::WITHOUT_PI, "x");
+        let made = Made::new().with("bsdf/a", seen).with("light/b", light(20.0));
+        let gives: [(&[&str], &str, f64); 6] = [
+            (&["more"], "bsdf/a", 2.0),
+            (&["less"], "bsdf/a", 4.0),
+            (&["less"], "light/b", 1.5),
+            (&["cosine"], "light/b", 3.0),
+            (&["more", "cosine"], "light/b", 7.0),
+            (&["less", "cosine"], "light/b", 20.0),
+        ];
+        let planted = Bench { mistakes: &[MORE, LESS, COSINE], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let causes: Vec<_> = told(&diagnosis).into_iter().map(|(cause, ..)| cause).collect();
+        assert_eq!(causes, [bsdf::WITHOUT_PI.name, light::WORLD_COSINE.name]);
+    }
+
+    #[test]
+    fn weak_light_is_not_told_among_much_that_is_dark_and_right_with_its_mistake() {
+        let of_core = [("light/b", 0.5), ("light/c", 0.25)].into_iter();
+        let of_core = of_core.chain(["light/d", "light/e", "light/f", "light/g"].map(|c| (c, 0.0)));
+        let made = of_core.fold(Made::new(), |made, (case, ratio)| made.with(case, light(ratio)));
+        let causes = |of_dark: f64| {
+            let dark: [(&[&str], &str, f64); 4] =
+                ["light/d", "light/e", "light/f", "light/g"].map(|c| (&["cosine"][..], c, of_dark));
+            let own: [(&[&str], &str, f64); 2] =
+                [(&["cosine"], "light/b", 0.5), (&["cosine"], "light/c", 0.25)];
+            let gives = [&own[..], &dark].concat();
+            let planted = Bench { mistakes: &[COSINE], gives: &gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            told(&diagnosis).into_iter().map(|(cause, ..)| cause.to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(causes(1.0), [""]);
+        assert!(causes(0.0).contains(&light::WORLD_COSINE.name.to_owned()));
+    }
+
+    #[test]
+    fn a_mistake_is_named_in_its_own_places_beside_one_that_nobody_knows() {
+        let of_core = [("light/b", 2.0), ("light/c", 3.0), ("light/d", 5.0), ("light/e", 7.0)];
+        let of_core = of_core.into_iter().chain([("light/f", 11.0)]);
+        let made = of_core.fold(Made::new(), |made, (case, ratio)| made.with(case, light(ratio)));
+        let causes = |of_d: f64, of_again: f64| {
+            let gives: [(&[&str], &str, f64); 5] = [
+                (&["cosine"], "light/b", 2.0),
+                (&["cosine"], "light/c", 3.0),
+                (&["cosine"], "light/d", of_d),
+                (&["again"], "light/b", of_again),
+                (&["again"], "light/c", 3.0),
+            ];
+            let planted = Bench { mistakes: &[COSINE, AGAIN], gives: &gives };
+            let diagnosis = diagnose_proven(&made.evidence(), &planted);
+            told(&diagnosis).into_iter().map(|(cause, ..)| cause.to_owned()).collect::<Vec<_>>()
+        };
+        let cosine = light::WORLD_COSINE.name.to_owned();
+        assert!(causes(1.0, 1.0).contains(&cosine));
+        assert_eq!(causes(4.0, 1.0), [""], "what it fails otherwise is not its own");
+        assert_eq!(causes(1.0, 2.0), [""], "two may be what is seen there");
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub(super) const FAILED: usize = 16;
 /// Cases of its part that passed and are put to it, the quickest.
 const PASSED: usize = 6;
 /// A cause is not told if so many times more speaks against it than for it, and no less than this many cases.
-const OUTNUMBERED: usize = 2;
+pub(super) const OUTNUMBERED: usize = 2;
 const LEAST_AGAINST: usize = 2;
 /// The case that was written for a mistake speaks against it as loud as so many others.
 const OWN_CASE: usize = 2;
@@ -91,7 +91,7 @@ impl<'a> Proof<'a> {
 
     /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise.
     pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {
-        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
         let is_unlike = |headline: &Headline, mistake: Mistake| {
             let own = self.evidence.failure_of(mistake.caught_by);
             let own = own.filter(|seen| !seen.with.intersects(mistake.components));
@@ -133,12 +133,7 @@ impl<'a> Proof<'a> {
 
     /// Whether one of `sets` gives all that `cases` show; a first look leaves few of them for a second.
     fn is_given_by_some(&self, sets: Vec<Vec<Mistake>>, cases: &[&Observation<'_>]) -> bool {
-        let at_first = likenesses(cases, &self.glimpsed(&sets, cases));
-        let may_give = |(_, of_set): &(_, Vec<Likeness>)| {
-            of_set.iter().all(|likeness| likeness.may_be_reproduced())
-        };
-        let left = sets.into_iter().zip(at_first).filter(may_give);
-        let left: Vec<_> = left.map(|(set, _)| set).collect();
+        let left = self.likely_at_first(sets, cases);
         let gives = |of_set: Vec<Likeness>| of_set.into_iter().all(Likeness::is_reproduced);
         !cases.is_empty() && self.compare(&left, cases).into_iter().any(gives)
     }
@@ -198,10 +193,7 @@ impl<'a> Proof<'a> {
             let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
             let following = quickest(failures, FAILED);
             let answers = self.weighed(&alone, &following);
-            let passes = |number: &usize| {
-                let mut known = answers.iter().filter_map(|of| of[*number].as_ref()).peekable();
-                known.peek().is_some() && known.all(|of| of.verdict == Verdict::Pass)
-            };
+            let passes = |number: &usize| all_pass(&answers, *number);
             let apart: Vec<_> = (0..following.len()).filter(passes).collect();
             let names = |number: usize| following[number].case.to_owned();
             let all_pass = apart.len() == following.len() && apart.len() >= CASES;
@@ -260,7 +252,7 @@ impl<'a> Proof<'a> {
         cases: &[&Observation<'a>],
     ) -> Vec<Vec<Finding>> {
         let mut answers = findings(self.weighed(own, cases));
-        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.of(told).next()).collect();
+        let all: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
         let is_doubtful = |number: &usize| {
             let (seen, of_own) = (cases[*number], &answers[*number]);
             !of_own.is_empty() && (speak_against(seen, of_own) || are_alike(seen, of_own))
@@ -275,6 +267,12 @@ impl<'a> Proof<'a> {
         }
         answers
     }
+}
+
+/// Whether every one of these sets passes a case, as far as that is known.
+pub(super) fn all_pass(of_sets: &[Vec<Option<Finding>>], case: usize) -> bool {
+    let mut known = of_sets.iter().filter_map(|of_set| of_set[case].as_ref()).peekable();
+    known.peek().is_some() && known.all(|answer| answer.verdict == Verdict::Pass)
 }
 
 /// Case by case, the answers that there are.

@@ -72,6 +72,22 @@ pub(crate) fn is_of_bvh(cause: &Cause) -> bool {
     bvh::CAUSES.contains(&cause)
 }
 
+/// Whether hits may be lost by a mistake of the BVH; by the others it takes longer, and every hit is right.
+pub(crate) fn may_lose_hits(cause: &Cause) -> bool {
+    let only_slow = [
+        &bvh::BVH_NOT_USED,
+        &bvh::CHILDREN_UNORDERED,
+        &bvh::COUNTS_NOT_REAL,
+        &bvh::SEGMENT_NOT_SHORTENED,
+        &bvh::SHADOWS_SEARCH_ON,
+        &bvh::SHADOWS_WITHOUT_BVH,
+        &bvh::SHORTEST_AXIS,
+        &bvh::UNBALANCED,
+        &bvh::Z_NEVER_SPLIT,
+    ];
+    is_of_bvh(cause) && !only_slow.contains(&cause)
+}
+
 /// Whether the cause says what is lost and not why: any other of its kind explains more.
 pub(crate) fn is_vague(cause: &Cause) -> bool {
     *cause == bvh::HITS_LOST
@@ -80,8 +96,7 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
 /// Whether the second is no mistake of its own where the first is made: what is lost by it, t_max that stays as it is
 /// where hits do not shorten it, or a length of fixed size where a threshold is one.
 pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
-    let loses = is_of_bvh(cause) && !is_vague(cause) && is_vague(other);
-    loses
+    may_lose_hits(cause) && !is_vague(cause) && is_vague(other)
         || *cause == bvh::HIT_OVERWRITTEN && *other == bvh::SEGMENT_NOT_SHORTENED
         || *cause == shape::DETERMINANT_THRESHOLD && *other == integrator::FIXED_LENGTH
 }

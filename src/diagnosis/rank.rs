@@ -580,9 +580,9 @@ fn collect(evidence: &Evidence<'_>, suspicions: Vec<Suspicion>) -> Vec<Candidate
     candidates
 }
 
-/// A mistake of the BVH that has a name explains the cases of the vague cause of the same part too.
+/// A mistake of the BVH that has a name and may lose hits explains the cases of the vague cause of the same part too.
 fn absorb_the_vague(told: &mut Candidate, candidates: &mut Vec<Candidate>) {
-    if cause::is_of_bvh(told.cause) {
+    if cause::may_lose_hits(told.cause) {
         for vague in candidates.extract_if(.., |candidate| cause::is_vague(candidate.cause)) {
             told.cases.extend(vague.cases);
             told.evidence.extend(vague.evidence);
@@ -930,6 +930,20 @@ mod tests {
         let likeness = |cause: &crate::cause::Cause| (cause.name, Degree::LooksLike);
         let expected = [&bvh::HIT_OVERWRITTEN, &bvh::SEGMENT_NOT_SHORTENED].map(likeness);
         assert_eq!(told, expected);
+    }
+
+    #[test]
+    fn what_only_slows_explains_no_hit_that_is_lost() {
+        let lost = failing("lost").because(&bvh::HITS_LOST, "the loop meets them");
+        let explained = |cause: &crate::cause::Cause| {
+            let made = Made::new()
+                .with("bvh/a", lost.clone())
+                .with("bvh/b", failing("b").because(cause, "y"));
+            let headlines = diagnose(&made.evidence()).headlines;
+            headlines.into_iter().find(|told| told.cause == cause.name).unwrap().explains.len()
+        };
+        assert_eq!(explained(&bvh::BOX_WITHOUT_Z), 2);
+        assert_eq!(explained(&bvh::SHORTEST_AXIS), 1);
     }
 
     #[test]

@@ -14,6 +14,12 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     if evidence.failed_finding(MIRRORS).is_none() || evidence.failed_finding(FURNACE).is_some() {
         return Vec::new();
     }
+    let failing: Vec<_> = evidence.failures().map(|seen| seen.case.to_owned()).collect();
+    let broken = evidence.proven_by(&failing);
+    // A mirror that no ray meets shows nothing, either.
+    if evidence.rests_on(evidence.case(MIRRORS)).iter().any(|below| broken.contains(below)) {
+        return Vec::new();
+    }
     let dark = |finding: &Finding| fails_as(finding, 0.0);
     let failures = evidence.failures().filter(|seen| seen.is_about(Subject::Integrator));
     let cases: Vec<_> = failures
@@ -37,7 +43,8 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::case::Foundation;
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::image::Channel;
 
     #[test]
@@ -45,6 +52,12 @@ mod tests {
         let dark = || means(vec![mean("bounce 3", Channel::Red, 0.5, 0.0, 1e-4)]);
         let made = Made::new().with(MIRRORS, dark()).with(FURNACE, passing());
         assert_eq!(made.first(), Some(integrator::NO_EMISSION_AFTER_SPECULAR.name));
+        let broken = |made: Made| {
+            let made = made.with("shape/a", failing("nothing is hit"));
+            made.proving("shape/a", &[Foundation::Hits])
+        };
+        let unmet = broken(made).resting("integrator/Mirrors", &[Foundation::Hits]);
+        assert_ne!(unmet.first(), Some(integrator::NO_EMISSION_AFTER_SPECULAR.name));
         let dim = means(vec![mean("bounce 3", Channel::Red, 0.5, 0.7, 1e-4)]);
         let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
         assert_eq!(made.first(), None);

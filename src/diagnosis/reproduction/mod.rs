@@ -336,7 +336,7 @@ impl<'a> Proof<'a> {
     }
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
-    /// mistake: one mistake is all there is.
+    /// mistake, or among twice as much in all parts: one mistake is all there is.
     fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
         let explains = |one: &Headline, seen: &Observation<'_>| {
@@ -347,9 +347,13 @@ impl<'a> Proof<'a> {
         let free: Vec<_> = dark.iter().filter(is_free).map(|seen| seen.case.to_owned()).collect();
         let is_lost = |one: &&&Headline| {
             let own = dark.iter().filter(|seen| explains(one, seen)).count();
-            let others: Vec<_> =
+            let of_part: Vec<_> =
                 free.iter().filter(|case| is_of_one_part(one, case)).cloned().collect();
-            own == one.explains.len() && others.len() >= own && self.are_right(one, &others)
+            let is_lost_in = |others: &[String], least: usize| {
+                others.len() >= least && self.are_right(one, others)
+            };
+            own == one.explains.len()
+                && (is_lost_in(&of_part, own) || is_lost_in(&free, siblings::OUTNUMBERED * own))
         };
         told.iter().filter(is_lost).copied().filter_map(all_of).flatten().collect()
     }

@@ -84,7 +84,7 @@ macro_rules! validated {
             if asked.size.contains(&0) {
                 return Ok(Default::default());
             }
-            self.work.is_in_time(stringify!($method))?;
+            self.work.look_at_the_time(stringify!($method))?;
             let work = self.work_of_one $(* Argument::work($arg))*;
             self.work.add(work * (asked.size[0] * asked.size[1]) as u64);
             $(self.work.see(Argument::circumstances($arg));)*
@@ -121,7 +121,7 @@ impl Core for Validated<'_> {
         knows(capabilities, needed)?;
         let of_meshes = scene.meshes.iter().map(|mesh| mesh.indices.len());
         let primitives_of_shape = of_meshes.chain(scene.spheres.iter().map(|_| 1)).collect();
-        self.work.is_in_time("build_scene")?;
+        self.work.look_at_the_time("build_scene")?;
         self.work.add(scene.primitive_count() as u64);
         self.work.see(Circumstances::of_scene(scene));
         let work_of_one = work::of_ray(scene, how);

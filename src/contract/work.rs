@@ -36,7 +36,7 @@ impl Work {
     }
 
     /// Fails where time is over before `during` is asked.
-    pub(super) fn is_in_time(&self, during: &str) -> Result<()> {
+    pub(super) fn look_at_the_time(&self, during: &str) -> Result<()> {
         match self.time {
             Some(Time { began, limit }) if began.elapsed() > limit => {
                 Err(CoreError::TimedOut { limit, during: during.to_owned() })
@@ -92,11 +92,11 @@ mod tests {
 
     #[test]
     fn nothing_is_asked_once_time_is_over() {
-        assert_eq!(Work::default().is_in_time("radiance"), Ok(()));
-        assert_eq!(Work::within(Some(Duration::MAX)).is_in_time("radiance"), Ok(()));
+        assert_eq!(Work::default().look_at_the_time("radiance"), Ok(()));
+        assert_eq!(Work::within(Some(Duration::MAX)).look_at_the_time("radiance"), Ok(()));
         let over = Work::within(Some(Duration::ZERO));
         std::thread::sleep(Duration::from_millis(1));
         let late = CoreError::TimedOut { limit: Duration::ZERO, during: "radiance".to_owned() };
-        assert_eq!(over.is_in_time("radiance"), Err(late));
+        assert_eq!(over.look_at_the_time("radiance"), Err(late));
     }
 }

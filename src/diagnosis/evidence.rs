@@ -72,16 +72,18 @@ impl Observation<'_> {
 
     /// Whether all that is wrong is 0 or NaN.
     pub(crate) fn is_dark(&self) -> bool {
-        let measures = self.finding.into_iter().flat_map(|finding| &finding.measures);
-        let mut wrong = measures.filter(|measure| measure.failed()).peekable();
-        wrong.peek().is_some() && wrong.all(Measure::is_degenerate)
+        self.is_wrong_by(Measure::is_degenerate)
     }
 
     /// Whether all that is wrong is less than it should be.
     pub(crate) fn is_too_weak(&self) -> bool {
-        let measures = self.finding.into_iter().flat_map(|finding| &finding.measures);
-        let mut wrong = measures.filter(|measure| measure.failed()).peekable();
-        wrong.peek().is_some() && wrong.all(|measure| measure.measured < measure.expected)
+        self.is_wrong_by(|measure| measure.measured < measure.expected)
+    }
+
+    /// Whether there are wrong numbers, and all of them are so.
+    fn is_wrong_by(&self, is_so: impl Fn(&Measure) -> bool) -> bool {
+        let mut wrong = self.finding.into_iter().flat_map(Finding::failed_measures).peekable();
+        wrong.peek().is_some() && wrong.all(is_so)
     }
 }
 

@@ -7,7 +7,6 @@ use crate::case::{Role, Subject};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
 use crate::image::CHANNELS;
-use crate::stats::Verdict;
 use crate::text::number::figure;
 
 /// Direct light that nothing blocks.
@@ -46,11 +45,7 @@ fn shadowed_at_times(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let [(mean, variance), ..] = channels.into_iter().collect::<Option<Vec<_>>>()?[..] else {
         return None;
     };
-    let is_dark = |finding: &Finding| {
-        let mut wrong = finding.measures.iter().filter(|m| m.verdict == Verdict::Fail).peekable();
-        wrong.peek().is_some() && wrong.all(|m| m.measured < m.expected)
-    };
-    let dark = evidence.failures().filter(|seen| seen.finding.is_some_and(is_dark));
+    let dark = evidence.failures().filter(|seen| seen.is_too_weak());
     let dark = dark.filter(|seen| seen.is_about(Subject::Light)).map(|seen| seen.case);
     Some(Suspicion {
         cause: &light::EMITTER_SHADOWS_ITSELF,

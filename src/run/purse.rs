@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What the textbook core does in a second of a processor, about: of all cases it is asked 1.66 · 10⁹ in 91 s.
-const A_SECOND: u64 = 15_000_000;
+pub(super) const A_SECOND: u64 = 15_000_000;
 /// Seconds of it that may always be tried. With 20 the search through four mistakes of which three lose hits ended before the
 /// last was found, once rows after the first that fails took fewer paths: the share of the trials had been 26.
 pub(super) const LEAST: u64 = 30;

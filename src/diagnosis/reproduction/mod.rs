@@ -418,8 +418,9 @@ impl<'a> Proof<'a> {
         let is_lost = |one: &&Headline| {
             let sets: Vec<_> = self.of(one).map(|mistake| vec![mistake]).collect();
             let answers = self.weighed(&sets, &dark);
-            let right =
-                (0..dark.len()).filter(|number| siblings::all_pass(&answers, *number)).count();
+            let right = (0..dark.len())
+                .filter(|number| siblings::is_passed_by_all(&answers, *number))
+                .count();
             right >= siblings::OUTNUMBERED * one.explains.len().max(1)
         };
         let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));

@@ -193,7 +193,7 @@ impl<'a> Proof<'a> {
             let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
             let following = quickest(failures, FAILED);
             let answers = self.weighed(&alone, &following);
-            let passes = |number: &usize| all_pass(&answers, *number);
+            let passes = |number: &usize| is_passed_by_all(&answers, *number);
             let apart: Vec<_> = (0..following.len()).filter(passes).collect();
             let names = |number: usize| following[number].case.to_owned();
             let all_pass = apart.len() == following.len() && apart.len() >= CASES;
@@ -270,7 +270,7 @@ impl<'a> Proof<'a> {
 }
 
 /// Whether every one of these sets passes a case, as far as that is known.
-pub(super) fn all_pass(of_sets: &[Vec<Option<Finding>>], case: usize) -> bool {
+pub(super) fn is_passed_by_all(of_sets: &[Vec<Option<Finding>>], case: usize) -> bool {
     let mut known = of_sets.iter().filter_map(|of_set| of_set[case].as_ref()).peekable();
     known.peek().is_some() && known.all(|answer| answer.verdict == Verdict::Pass)
 }

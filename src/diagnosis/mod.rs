@@ -18,6 +18,7 @@ mod directions;
 mod endings;
 mod evidence;
 mod generic_position;
+mod headline;
 mod mirrors;
 mod pictures;
 mod rank;
@@ -31,8 +32,8 @@ mod testing;
 
 pub(crate) use apart::{View, diagnose_apart};
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
+pub(crate) use headline::Headline;
 pub(crate) use rank::Diagnosis;
-pub(crate) use rank::Headline;
 pub(crate) use reproduction::{Mistake, Planted, Question};
 
 use crate::cause::Cause;

@@ -1,8 +1,8 @@
 //! Whether two cores are wrong alike, number by number.
 
-use super::Observation;
 use crate::checks::law::LOST_SAMPLES;
 use crate::checks::{Finding, Measure, STANDARD_ERRORS};
+use crate::diagnosis::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Of the numbers that are wrong in one core or the other, so many have to agree.

@@ -1,10 +1,9 @@
 //! What the mistake of a cause makes of the cases beside those that it explains: where it gives their numbers too, it
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
+use super::doubts::{all_of, refuted};
 use super::likeness::{Likeness, likeness};
-use super::{
-    CASES, Mistake, Proof, Refuted, all_of, is_of_one_part, likenesses, quickest, refuted,
-};
+use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, likenesses, quickest};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;

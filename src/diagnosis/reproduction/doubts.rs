@@ -1,0 +1,280 @@
+//! What planted mistakes say against what is suspected: what they contradict is not told, and what they leave a doubt of
+//! only looks like it.
+
+use super::likeness::Likeness;
+use super::{
+    MadeIn, Mistake, Proof, ROUNDS, Refuted, is_of_one_part, likenesses, quickest, siblings,
+};
+use crate::cause::{self, Cause, bvh};
+use crate::contract::Components;
+use crate::diagnosis::rank::Ranked;
+use crate::diagnosis::{Headline, Observation, Suspicion, look_without};
+use std::collections::BTreeSet;
+use std::slice;
+
+/// Cases of a cause that may contradict it one by one: what it does not explain may be another mistake of the same lines.
+const CONTRADICTING: usize = 16;
+
+impl<'a> Proof<'a> {
+    /// What is told after everything that is contradicted has made room for the next suspicion.
+    pub(super) fn uncontradicted(&self) -> (Refuted, Ranked) {
+        // What takes the least time is asked first.
+        let doubts: [fn(&Self, &Ranked) -> Refuted; 5] = [
+            Self::contradicted,
+            Self::following,
+            Self::superfluous,
+            Self::lost_in_the_dark,
+            Self::outnumbered,
+        ];
+        let mut refuted = Refuted::new();
+        let mut ranked = look_without(self.evidence, &refuted, Vec::new());
+        for _ in 0..ROUNDS {
+            let mut against = doubts.iter().map(|doubt| doubt(self, &ranked));
+            match against.find(|against| !against.is_empty()) {
+                Some(against) if !against.is_subset(&refuted) => refuted.extend(against),
+                _ => break,
+            }
+            ranked = look_without(self.evidence, &refuted, Vec::new());
+        }
+        (refuted, ranked)
+    }
+
+    /// What is told of all but the refuted, and looks like it only where its mistakes leave a doubt.
+    pub(super) fn doubted(&self, refuted: &Refuted, found: &[Suspicion]) -> Ranked {
+        let mut told = look_without(self.evidence, refuted, found.to_vec());
+        let is_against = |one: &&Headline| {
+            self.is_outnumbered(one, &told)
+                || self.is_built_on_what_is_wrong(one, &told)
+                || self.passes_its_own(one) && !self.is_needed(one)
+        };
+        let against: BTreeSet<_> =
+            told.with_cause().filter(is_against).map(|one| one.cause.clone()).collect();
+        let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+        let is_alone = |one: &&Headline| self.is_the_only_one_in_sight(one, &told);
+        let alone: BTreeSet<_> =
+            told.with_cause().filter(is_alone).map(|one| one.cause.clone()).collect();
+        told.assure(|headline| alone.contains(&headline.cause));
+        told.doubt(|headline| {
+            let is_proven = causes.contains(&headline.cause[..])
+                || alone.contains(&headline.cause)
+                || self.is_needed(headline);
+            let is_unsure = || self.is_dark_alone(headline) || self.is_of_another_size(headline);
+            let is_doubtful = self.is_made_elsewhere(headline) || against.contains(&headline.cause);
+            is_doubtful || !is_proven && is_unsure()
+        });
+        // Patterns of which each explains other cases contradict each other.
+        told.as_one(&bvh::HITS_LOST, |headline| {
+            let loses_hits = cause::find(&headline.cause).is_some_and(cause::loses_hits);
+            loses_hits && !causes.contains(&headline.cause[..])
+        });
+        told
+    }
+
+    /// What says too little beside the other cases of its part; of what rules suspected, less is asked.
+    pub(super) fn unfounded(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let mut unfounded = self.outnumbered(told);
+        unfounded.extend(self.superfluous(told));
+        let unproven = self.unproven_beside(told).into_iter();
+        unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
+        unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded.extend(self.dark_and_not_alone(told, suspected));
+        unfounded.extend(self.dim_among_the_dark(told, suspected));
+        unfounded.extend(self.unlike_in_their_own(told));
+        unfounded.extend(self.following(told));
+        unfounded
+    }
+
+    /// The cases of each headline that contradict its cause, planted alone and beside all others that are told.
+    fn contradicted(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let all: Vec<_> = told.iter().filter_map(|headline| self.likeliest(headline)).collect();
+        told.iter().flat_map(|headline| self.contradicting(headline, &all)).collect()
+    }
+
+    fn contradicting(&self, headline: &Headline, all: &[Mistake]) -> Refuted {
+        let Some(cause) = cause::find(&headline.cause) else { return Refuted::new() };
+        let planted: Components = self.of(headline).map(|mistake| mistake.components).collect();
+        let made = if cause::is_of_the_film_alone(cause) { Components::PIXEL } else { planted };
+        if !made.is_empty() && self.made_in.leaves(made) {
+            return refuted(cause, &headline.explains);
+        }
+        let explained = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+        let cases = quickest(explained, CONTRADICTING);
+        let alone: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let mut against = self.other_than(&alone, &cases);
+        if all.len() > 1 {
+            against = self.other_than(&[all.to_vec()], &against);
+        }
+        // What every case that was tried contradicts is not the cause of those that were not.
+        if !against.is_empty() && against.len() == cases.len() {
+            return refuted(cause, &headline.explains);
+        }
+        against.into_iter().map(|seen| (cause.name, seen.case.to_owned())).collect()
+    }
+
+    /// Cases that the core fails otherwise than each of these sets of mistakes would.
+    fn other_than<'s>(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&'s Observation<'a>],
+    ) -> Vec<&'s Observation<'a>> {
+        let answers = likenesses(cases, &self.weighed(sets, cases));
+        let is_other = |number: usize| {
+            let of_sets = || answers.iter().map(|of_set| of_set[number]);
+            of_sets().any(|likeness| likeness == Likeness::Other)
+                && of_sets().all(|l| matches!(l, Likeness::Other | Likeness::Unknown))
+        };
+        (0..cases.len()).filter(|number| is_other(*number)).map(|number| cases[number]).collect()
+    }
+
+    /// Causes whose cases another one's mistake reproduces too, and that reproduce not all of that one's: one mistake is
+    /// all there is, unless a check has seen that it takes both.
+    pub(super) fn following(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let reproduces = |one: &Headline, of: &Headline| {
+            self.of(one).any(|mistake| self.is_reproduced(mistake, of))
+        };
+        let follows = |other: &&&Headline| {
+            let others = told.iter().filter(|one| one.cause != other.cause);
+            let mut of_both = others.filter(|one| reproduces(one, one) && reproduces(one, other));
+            of_both.any(|one| !reproduces(other, one))
+        };
+        let following = told.iter().filter(follows).filter(|told| !self.is_needed(told));
+        following.copied().filter_map(all_of).flatten().collect()
+    }
+
+    /// A cause whose numbers all others that are told give together: nothing takes it. Of several the one that explains the
+    /// least.
+    fn superfluous(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        // That all others leave it dark where it is dark is enough here: they are told already.
+        let is_superfluous = |one: &&&Headline| {
+            let others = told.iter().filter(|other| other.cause != one.cause);
+            let others: Vec<_> = others.filter_map(|other| self.likeliest(other)).collect();
+            let cases = self.quickest(&one.explains);
+            let is_given = || {
+                self.compare(slice::from_ref(&others), &cases)[0]
+                    .iter()
+                    .all(|of| of.is_reproduced())
+            };
+            !others.is_empty() && !cases.is_empty() && !self.is_needed(one) && is_given()
+        };
+        let least = told.iter().filter(is_superfluous).min_by_key(|one| one.explains.len());
+        least.copied().and_then(all_of).unwrap_or_default()
+    }
+
+    /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
+    /// mistake, or among twice as much in all parts: one mistake is all there is.
+    fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
+        let told: Vec<_> = ranked.with_cause().collect();
+        let explains = |one: &Headline, seen: &Observation<'_>| {
+            one.explains.iter().any(|case| case == seen.case)
+        };
+        let dark: Vec<_> = self.evidence.failures().filter(|seen| seen.is_dark()).collect();
+        let is_free = |seen: &&&Observation<'_>| !told.iter().any(|one| explains(one, seen));
+        let free: Vec<_> = dark.iter().filter(is_free).map(|seen| seen.case.to_owned()).collect();
+        let is_lost = |one: &&&Headline| {
+            let own = dark.iter().filter(|seen| explains(one, seen)).count();
+            let of_part: Vec<_> =
+                free.iter().filter(|case| is_of_one_part(one, case)).cloned().collect();
+            let is_lost_in = |others: &[String], least: usize| {
+                others.len() >= least && self.are_right(one, others)
+            };
+            own == one.explains.len()
+                && (is_lost_in(&of_part, own) || is_lost_in(&free, siblings::OUTNUMBERED * own))
+        };
+        told.iter().filter(is_lost).copied().filter_map(all_of).flatten().collect()
+    }
+
+    /// Whether the mistakes of `headline` leave right what was tried of `cases`.
+    fn are_right(&self, headline: &Headline, cases: &[String]) -> bool {
+        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let answers = self.compare(&sets, &self.quickest(cases));
+        let known = answers.iter().flatten().filter(|likeness| likeness.is_known());
+        let mut likenesses = known.peekable();
+        likenesses.peek().is_some() && likenesses.all(|likeness| *likeness == Likeness::Other)
+    }
+
+    /// Whether a check has recognised its cause beside others, answer by answer, which is more than counts can tell.
+    pub(super) fn is_needed(&self, headline: &Headline) -> bool {
+        let seen =
+            headline.explains.iter().filter_map(|case| self.evidence.failure_of(case)?.finding);
+        let mut clues = seen.flat_map(|finding| &finding.clues);
+        clues.any(|clue| clue.beside && clue.cause == headline.cause)
+    }
+
+    /// Whether one mistake gives the numbers of every case of `headline` that is tried.
+    pub(super) fn is_reproduced(&self, mistake: Mistake, headline: &Headline) -> bool {
+        let cases = self.quickest(&headline.explains);
+        !self.fitting(&[vec![mistake]], &cases).is_empty()
+    }
+
+    /// Whether its mistakes are planted in other components than those that mend the core.
+    fn is_made_elsewhere(&self, headline: &Headline) -> bool {
+        let mut mistakes = self.of(headline).peekable();
+        matches!(self.made_in, MadeIn::Mended(_))
+            && mistakes.peek().is_some()
+            && mistakes.all(|mistake| !self.made_in.may_be(mistake.components))
+    }
+
+    /// Whether all that it explains is light of 0 or NaN, as many mistakes make it.
+    fn is_dark_alone(&self, headline: &Headline) -> bool {
+        let seen = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+        let mut seen = seen.peekable();
+        seen.peek().is_some() && seen.all(|seen| seen.is_about_light() && seen.is_dark())
+    }
+
+    /// What the search has found of darkness alone, and what is not the only one in sight.
+    fn dark_and_not_alone(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
+        let dark = found.filter(|one| self.is_dark_alone(one));
+        let unsure = dark.filter(|one| !self.is_the_only_one_in_sight(one, told));
+        unsure.filter_map(all_of).flatten().collect()
+    }
+
+    /// What the search has found of light that is too weak, where far more cases have none and its mistake leaves them right:
+    /// whatever takes that light takes this, too.
+    fn dim_among_the_dark(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+        let explained =
+            |case: &str| told.with_cause().any(|one| one.explains.iter().any(|own| own == case));
+        let dark = self.evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());
+        let dark = quickest(dark.filter(|seen| !explained(seen.case)), siblings::FAILED);
+        let is_dim = |one: &Headline| {
+            let mut seen = one.explains.iter().filter_map(|case| self.evidence.failure_of(case));
+            seen.all(|seen| seen.is_about_light() && seen.is_too_weak())
+        };
+        let is_lost = |one: &&Headline| {
+            let sets: Vec<_> = self.of(one).map(|mistake| vec![mistake]).collect();
+            let answers = self.weighed(&sets, &dark);
+            let right = (0..dark.len())
+                .filter(|number| siblings::is_passed_by_all(&answers, *number))
+                .count();
+            right >= siblings::OUTNUMBERED * one.explains.len().max(1)
+        };
+        let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
+        found.filter(|one| is_dim(one)).filter(is_lost).filter_map(all_of).flatten().collect()
+    }
+
+    /// Whether its mistakes are wrong in the same places, and nowhere by as much.
+    fn is_of_another_size(&self, headline: &Headline) -> bool {
+        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
+        let cases = self.quickest(&headline.explains);
+        let answers = self.compare(&sets, &cases);
+        let of_case = |number: usize| answers.iter().map(move |of_set| of_set[number]);
+        let is_same = |number: usize| of_case(number).any(|one| one == Likeness::Same);
+        let is_unsized = |number: usize| of_case(number).any(|one| one == Likeness::Unsized);
+        let mut known = (0..cases.len())
+            .filter(|number| of_case(*number).any(Likeness::is_known) && !is_unsized(*number))
+            .peekable();
+        known.peek().is_some() && !known.any(is_same)
+    }
+}
+
+/// All that a cause explains, against it.
+pub(super) fn all_of(headline: &Headline) -> Option<Refuted> {
+    Some(refuted(cause::find(&headline.cause)?, &headline.explains))
+}
+
+pub(super) fn refuted(cause: &'static Cause, cases: &[String]) -> Refuted {
+    cases.iter().map(|case| (cause.name, case.clone())).collect()
+}

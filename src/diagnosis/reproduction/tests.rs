@@ -1,0 +1,697 @@
+//! With mistakes whose numbers are made up.
+
+use super::*;
+use crate::case::Foundation;
+use crate::cause::{bsdf, bvh, integrator, light};
+use crate::diagnosis::testing::{Made, failing, mean, means, passing};
+use crate::diagnosis::{Degree, Diagnosis, diagnose, diagnose_proven};
+use crate::image::Channel;
+
+const PI: Mistake = mistake("pi", &bsdf::WITHOUT_PI, "bsdf/a");
+const DIVIDED: Mistake = mistake("divided", &light::DIVIDED_BY_LIGHTS, "light/b");
+const COSINE: Mistake = mistake("cosine", &light::WORLD_COSINE, "light/b");
+const AGAIN: Mistake = mistake("again", &integrator::EMISSION_AGAIN, "light/b");
+
+const fn mistake(name: &'static str, cause: &'static Cause, caught_by: &'static str) -> Mistake {
+    Mistake { name, cause, components: Components::BSDF, caught_by }
+}
+
+/// Mistakes, and the ratio to what is right that they give together in a case; 1 where nothing is said.
+struct Bench<'a> {
+    mistakes: &'a [Mistake],
+    gives: &'a [(&'a [&'a str], &'a str, f64)],
+}
+
+impl Planted for Bench<'_> {
+    fn mistakes(&self) -> &[Mistake] {
+        self.mistakes
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let ratio = |question: &Question<'_>| {
+            let names: Vec<_> = question.mistakes.iter().map(|one| one.name).collect();
+            let of = |(set, case, _): &&(&[&str], &str, f64)| {
+                let is_set = set.len() == names.len() && names.iter().all(|n| set.contains(n));
+                is_set && *case == question.case
+            };
+            self.gives.iter().find(of).map_or(1.0, |(.., ratio)| *ratio)
+        };
+        questions.iter().map(|question| Some(light(ratio(question)))).collect()
+    }
+}
+
+fn light(ratio: f64) -> Finding {
+    means(vec![mean("bounce 1", Channel::Red, 0.5, ratio, 0.01)])
+}
+
+fn told(diagnosis: &Diagnosis) -> Vec<(&str, Degree, usize)> {
+    let headlines = diagnosis.headlines.iter();
+    headlines.map(|told| (&told.cause[..], told.degree, told.explains.len())).collect()
+}
+
+#[test]
+fn what_the_planted_mistake_contradicts_is_not_told() {
+    let brighter = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+    let made = Made::new().with("bsdf/a", brighter);
+    assert_eq!(diagnose(&made.evidence()).headlines[0].cause, bsdf::WITHOUT_PI.name);
+    for other in [1.0, 0.5] {
+        let planted = Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", other)] };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(told(&diagnosis), [("", Degree::DiffersHere, 1)], "{other}");
+    }
+    let planted = Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", 2.5)] };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let pi = bsdf::WITHOUT_PI.name;
+    assert_eq!(told(&diagnosis), [(pi, Degree::LooksLike, 1)], "it is of another size");
+}
+
+#[test]
+fn a_mistake_whose_own_case_passes_is_not_told_of_one_other() {
+    let seen = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+    let planted =
+        Bench { mistakes: &[PI], gives: &[(&["pi"], "bsdf/a", 3.0), (&["pi"], "bsdf/b", 2.0)] };
+    let causes = |made: Made| {
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        diagnosis.headlines.into_iter().map(|told| told.cause).collect::<Vec<_>>()
+    };
+    let pi = bsdf::WITHOUT_PI.name;
+    assert_eq!(causes(Made::new().with("bsdf/b", seen.clone())), [pi]);
+    assert_eq!(causes(Made::new().with("bsdf/b", seen.clone()).with("bsdf/a", passing())), [""]);
+}
+
+#[test]
+fn three_mistakes_that_only_together_give_all_numbers_are_named() {
+    const ALONE: [(&str, [f64; 6]); 3] = [
+        ("pi", [2.0, 2.5, 1.0, 1.0, 4.0, 1.0]),
+        ("cosine", [1.0, 1.5, 7.0, 5.0, 1.0, 3.0]),
+        ("again", [3.0, 1.0, 1.0, 8.0, 5.0, 9.0]),
+    ];
+    let cases = ["bsdf/a", "light/b", "light/c", "light/d", "light/e", "light/f"];
+    let ratio = |set: &[usize], case: usize| -> f64 {
+        set.iter().map(|mistake| ALONE[*mistake].1[case]).product()
+    };
+    let made = (0..6)
+        .fold(Made::new(), |made, case| made.with(cases[case], light(ratio(&[0, 1, 2], case))));
+    let sets: [(&[usize], &[&str]); 7] = [
+        (&[0], &["pi"]),
+        (&[1], &["cosine"]),
+        (&[2], &["again"]),
+        (&[0, 1], &["pi", "cosine"]),
+        (&[0, 2], &["pi", "again"]),
+        (&[1, 2], &["cosine", "again"]),
+        (&[0, 1, 2], &["pi", "cosine", "again"]),
+    ];
+    let given = sets
+        .iter()
+        .flat_map(|(set, names)| (0..6).map(move |case| (*names, cases[case], ratio(set, case))));
+    let gives: Vec<_> = given.collect();
+    let planted = Bench { mistakes: &[PI, COSINE, AGAIN], gives: &gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let mut named = told(&diagnosis);
+    named.sort_unstable();
+    let name = |cause: &'static Cause, cases| (cause.name, Degree::Named, cases);
+    let mut expected = [
+        name(&light::WORLD_COSINE, 4),
+        name(&integrator::EMISSION_AGAIN, 4),
+        name(&bsdf::WITHOUT_PI, 3),
+    ];
+    expected.sort_unstable();
+    assert_eq!(named, expected);
+}
+
+#[test]
+fn of_two_mistakes_of_a_cause_the_one_that_is_there_stands_beside_the_next() {
+    const MORE: Mistake = mistake("more", &bsdf::WITHOUT_PI, "bsdf/a");
+    const LESS: Mistake = mistake("less", &bsdf::WITHOUT_PI, "bsdf/a");
+    let seen = light(4.0).because(&bsdf::WITHOUT_PI, "x");
+    let made = Made::new().with("bsdf/a", seen).with("light/b", light(20.0));
+    let gives: [(&[&str], &str, f64); 6] = [
+        (&["more"], "bsdf/a", 2.0),
+        (&["less"], "bsdf/a", 4.0),
+        (&["less"], "light/b", 1.5),
+        (&["cosine"], "light/b", 3.0),
+        (&["more", "cosine"], "light/b", 7.0),
+        (&["less", "cosine"], "light/b", 20.0),
+    ];
+    let planted = Bench { mistakes: &[MORE, LESS, COSINE], gives: &gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let causes: Vec<_> = told(&diagnosis).into_iter().map(|(cause, ..)| cause).collect();
+    assert_eq!(causes, [bsdf::WITHOUT_PI.name, light::WORLD_COSINE.name]);
+}
+
+#[test]
+fn weak_light_is_not_told_among_much_that_is_dark_and_right_with_its_mistake() {
+    let of_core = [("light/b", 0.5), ("light/c", 0.25)].into_iter();
+    let of_core = of_core.chain(["light/d", "light/e", "light/f", "light/g"].map(|c| (c, 0.0)));
+    let made = of_core.fold(Made::new(), |made, (case, ratio)| made.with(case, light(ratio)));
+    let causes = |of_dark: f64| {
+        let dark: [(&[&str], &str, f64); 4] =
+            ["light/d", "light/e", "light/f", "light/g"].map(|c| (&["cosine"][..], c, of_dark));
+        let own: [(&[&str], &str, f64); 2] =
+            [(&["cosine"], "light/b", 0.5), (&["cosine"], "light/c", 0.25)];
+        let gives = [&own[..], &dark].concat();
+        let planted = Bench { mistakes: &[COSINE], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        told(&diagnosis).into_iter().map(|(cause, ..)| cause.to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(causes(1.0), [""]);
+    assert!(causes(0.0).contains(&light::WORLD_COSINE.name.to_owned()));
+}
+
+#[test]
+fn a_mistake_is_named_in_its_own_places_beside_one_that_nobody_knows() {
+    let of_core = [("light/b", 2.0), ("light/c", 3.0), ("light/d", 5.0), ("light/e", 7.0)];
+    let of_core = of_core.into_iter().chain([("light/f", 11.0)]);
+    let made = of_core.fold(Made::new(), |made, (case, ratio)| made.with(case, light(ratio)));
+    let causes = |of_d: f64, of_again: f64| {
+        let gives: [(&[&str], &str, f64); 5] = [
+            (&["cosine"], "light/b", 2.0),
+            (&["cosine"], "light/c", 3.0),
+            (&["cosine"], "light/d", of_d),
+            (&["again"], "light/b", of_again),
+            (&["again"], "light/c", 3.0),
+        ];
+        let planted = Bench { mistakes: &[COSINE, AGAIN], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        told(&diagnosis).into_iter().map(|(cause, ..)| cause.to_owned()).collect::<Vec<_>>()
+    };
+    let cosine = light::WORLD_COSINE.name.to_owned();
+    assert!(causes(1.0, 1.0).contains(&cosine));
+    assert_eq!(causes(4.0, 1.0), [""], "what it fails otherwise is not its own");
+    assert_eq!(causes(1.0, 2.0), [""], "two may be what is seen there");
+}
+
+#[test]
+fn a_cause_whose_numbers_all_others_give_together_is_not_told() {
+    let seen = |ratio, cause: &Cause| light(ratio).because(cause, "x");
+    let made = Made::new()
+        .with("bsdf/a", seen(2.0, &bsdf::WITHOUT_PI))
+        .with("light/b", seen(3.0, &light::WORLD_COSINE))
+        .with("integrator/c", seen(5.0, &integrator::ROULETTE_NOT_PLAYED));
+    let pi = bsdf::WITHOUT_PI.name;
+    let names = |gives: &[(&[&str], &str, f64)]| -> Vec<String> {
+        let planted = Bench { mistakes: &[PI, COSINE], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        diagnosis.headlines.into_iter().map(|told| told.cause).collect()
+    };
+    let apart: [(&[&str], &str, f64); 4] = [
+        (&["pi"], "bsdf/a", 2.0),
+        (&["cosine"], "light/b", 3.0),
+        (&["pi", "cosine"], "bsdf/a", 2.0),
+        (&["pi", "cosine"], "light/b", 3.0),
+    ];
+    let roulette = integrator::ROULETTE_NOT_PLAYED.name;
+    assert!(names(&apart).contains(&roulette.to_owned()));
+    let together = [&apart[..], &[(&["pi", "cosine"], "integrator/c", 5.0)]].concat();
+    let told = names(&together);
+    assert!(told.contains(&pi.to_owned()) && !told.contains(&roulette.to_owned()), "{told:?}");
+}
+
+#[test]
+fn a_cause_of_darkness_that_all_others_leave_dark_is_not_told() {
+    let seen = |ratio, cause: &Cause| light(ratio).because(cause, "x");
+    let made = Made::new()
+        .with("bsdf/a", seen(2.0, &bsdf::WITHOUT_PI))
+        .with("light/b", seen(3.0, &light::WORLD_COSINE))
+        .with("integrator/c", seen(0.0, &integrator::ROULETTE_NOT_PLAYED));
+    let names = |dark: f64| -> Vec<String> {
+        let gives: [(&[&str], &str, f64); 5] = [
+            (&["pi"], "bsdf/a", 2.0),
+            (&["cosine"], "light/b", 3.0),
+            (&["pi", "cosine"], "bsdf/a", 2.0),
+            (&["pi", "cosine"], "light/b", 3.0),
+            (&["pi", "cosine"], "integrator/c", dark),
+        ];
+        let planted = Bench { mistakes: &[PI, COSINE], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        diagnosis.headlines.into_iter().map(|told| told.cause).collect()
+    };
+    let roulette = integrator::ROULETTE_NOT_PLAYED.name.to_owned();
+    assert!(names(1.0).contains(&roulette) && !names(0.0).contains(&roulette));
+}
+
+#[test]
+fn darkness_is_named_where_one_mistake_alone_leaves_it_and_its_neighbours_light() {
+    const OTHER: Mistake = mistake("other", &light::WORLD_COSINE, "light/c");
+    let causes = |by_other: f64, neighbours: usize| {
+        let mut made = Made::new().with("light/b", light(0.0)).with("light/c", light(0.0));
+        for name in &["light/d", "light/e", "light/f", "light/g"][..neighbours] {
+            made = made.with(*name, light(1.0));
+        }
+        let gives: [(&[&str], &str, f64); 4] = [
+            (&["divided"], "light/b", 0.0),
+            (&["divided"], "light/c", 0.0),
+            (&["other"], "light/b", by_other),
+            (&["other"], "light/c", 0.0),
+        ];
+        let planted = Bench { mistakes: &[DIVIDED, OTHER], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let told = diagnosis.headlines.into_iter().map(|told| (told.cause, told.degree));
+        told.collect::<Vec<_>>()
+    };
+    let nothing = [(String::new(), Degree::DiffersHere)];
+    let divided = light::DIVIDED_BY_LIGHTS.name.to_owned();
+    assert_eq!(causes(0.5, 4), [(divided, Degree::Named)]);
+    assert_eq!(causes(0.0, 4), nothing, "another leaves it dark, too");
+    assert_eq!(causes(0.5, 1), nothing, "too little was asked beside it");
+}
+
+/// A bench whose time is up.
+struct Late;
+
+impl Planted for Late {
+    fn mistakes(&self) -> &[Mistake] {
+        &[PI]
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        vec![None; questions.len()]
+    }
+}
+
+/// Mistakes that are called by what they multiply by, and which of them were asked not only roughly.
+struct Factors {
+    mistakes: Vec<Mistake>,
+    asked: std::sync::Mutex<BTreeSet<&'static str>>,
+}
+
+impl Planted for Factors {
+    fn mistakes(&self) -> &[Mistake] {
+        &self.mistakes
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let answer = |question: &Question<'_>| {
+            let name = question.mistakes[0].name;
+            if !question.roughly {
+                self.asked.lock().unwrap().insert(name);
+            }
+            Some(light(name.parse().unwrap()))
+        };
+        questions.iter().map(answer).collect()
+    }
+}
+
+#[test]
+fn a_first_look_leaves_few_mistakes_for_the_second() {
+    let made = Made::new().with("light/b", light(1.8));
+    let of = |name| mistake(name, &bsdf::WITHOUT_PI, "light/b");
+    let mistakes = ["1.2", "1.4", "1.6", "1.8", "2.0", "2.2"].map(of).to_vec();
+    let bench = Factors { mistakes, asked: Default::default() };
+    let diagnosis = diagnose_proven(&made.evidence(), &bench);
+    assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
+    assert_eq!(bench.asked.into_inner().unwrap(), BTreeSet::from(["1.8"]));
+}
+
+/// Of one mistake in two places, one fails what the other passes, without a number.
+struct InTwoPlaces;
+
+impl Planted for InTwoPlaces {
+    fn mistakes(&self) -> &[Mistake] {
+        const HERE: Mistake = mistake("here", &bsdf::WITHOUT_PI, "bsdf/a");
+        const THERE: Mistake = mistake("there", &bsdf::WITHOUT_PI, "bsdf/b");
+        &[HERE, THERE]
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let is_here = |question: &Question<'_>| {
+            (question.mistakes[0].name == "here") == (question.case == "bsdf/a")
+        };
+        let answer = |is_here| if is_here { failing("a breach") } else { passing() };
+        questions.iter().map(|question| Some(answer(is_here(question)))).collect()
+    }
+}
+
+#[test]
+fn a_mistake_in_another_place_does_not_contradict_what_fails_without_a_number() {
+    let breach = failing("a breach").because(&bsdf::WITHOUT_PI, "a breach");
+    let made = Made::new().with("bsdf/a", breach);
+    let diagnosis = diagnose_proven(&made.evidence(), &InTwoPlaces);
+    assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 1)]);
+}
+
+#[test]
+fn a_cause_that_there_is_no_time_to_ask_keeps_its_name() {
+    let brighter = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+    let made = Made::new().with("bsdf/a", brighter);
+    let diagnosis = diagnose_proven(&made.evidence(), &Late);
+    assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 1)]);
+}
+
+#[test]
+fn a_cause_is_put_to_the_proof_however_slow_the_core_is() {
+    let brighter = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+    let made = Made::new().with("bsdf/a", brighter).taking(1 << 40);
+    let planted = Bench { mistakes: &[PI], gives: &[] };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    assert_eq!(told(&diagnosis), [("", Degree::DiffersHere, 1)]);
+}
+
+#[test]
+fn what_contradicts_one_cause_makes_room_for_the_next() {
+    let finding =
+        light(0.5).because(&bsdf::WITHOUT_PI, "x").because(&light::DIVIDED_BY_LIGHTS, "y");
+    let made = Made::new().with("light/b", finding);
+    let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.5)];
+    let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let divided = light::DIVIDED_BY_LIGHTS.name;
+    assert_eq!(told(&diagnosis), [(divided, Degree::Named, 1)]);
+}
+
+#[test]
+fn what_no_rule_knows_is_named_by_the_one_mistake_that_gives_the_same_numbers() {
+    let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.25));
+    let gives: &[(&[&str], _, _)] = &[
+        (&["divided"], "light/b", 0.5),
+        (&["divided"], "light/c", 0.25),
+        (&["again"], "light/b", 0.5),
+    ];
+    let planted = Bench { mistakes: &[DIVIDED, AGAIN], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let divided = light::DIVIDED_BY_LIGHTS.name;
+    assert_eq!(told(&diagnosis), [(divided, Degree::Named, 2)]);
+}
+
+#[test]
+fn one_mistake_that_is_wrong_alike_everywhere_and_mostly_by_as_much_is_looked_like() {
+    let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.25));
+    let told_where = |ratio| {
+        let gives: &[(&[&str], _, _)] =
+            &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", ratio)];
+        let planted = Bench { mistakes: &[DIVIDED, AGAIN], gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        let (cause, degree, cases) = told(&diagnosis)[0];
+        (cause.to_owned(), degree, cases)
+    };
+    let divided = light::DIVIDED_BY_LIGHTS.name.to_owned();
+    assert_eq!(told_where(0.4), (divided, Degree::LooksLike, 2));
+    assert_eq!(told_where(1.4).1, Degree::DiffersHere, "to the other side");
+}
+
+#[test]
+fn two_mistakes_that_give_the_numbers_only_together_are_both_named() {
+    let made = Made::new().with("bsdf/a", light(0.7)).with("light/b", light(0.4));
+    let both: &[&str] = &["pi", "divided"];
+    let gives = &[(both, "bsdf/a", 0.7), (both, "light/b", 0.4)];
+    let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
+    assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+}
+
+#[test]
+fn a_mistake_that_gives_the_numbers_of_two_causes_is_all_there_is() {
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"));
+    let gives: &[(&[&str], _, _)] =
+        &[(&["pi"], "bsdf/a", 1.5), (&["pi"], "light/b", 0.5), (&["divided"], "light/b", 0.5)];
+    let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::Named, 2)]);
+}
+
+#[test]
+fn of_two_mistakes_that_give_the_numbers_of_a_cause_the_one_that_gives_more_is_told() {
+    let made = Made::new()
+        .with("light/b", light(1.5).because(&bsdf::WITHOUT_PI, "y"))
+        .with("light/c", light(1.2));
+    let gives: &[(&[&str], _, _)] =
+        &[(&["pi"], "light/b", 1.5), (&["again"], "light/b", 1.5), (&["again"], "light/c", 1.2)];
+    let planted = Bench { mistakes: &[PI, AGAIN], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let again = integrator::EMISSION_AGAIN.name;
+    assert_eq!(told(&diagnosis), [(again, Degree::Named, 2)]);
+}
+
+#[test]
+fn what_passes_with_a_named_mistake_does_not_follow_from_it() {
+    let made = || {
+        let pi = light(0.5).because(&bsdf::WITHOUT_PI, "x");
+        let made = Made::new().with("bsdf/a", pi).with("light/b", light(0.9));
+        let on = [Foundation::Diffuse];
+        made.proving("bsdf/a", &on).resting("light/b", &on)
+    };
+    for (ratio, headlines) in [(0.7, 1), (1.0, 2)] {
+        let gives: &[(&[&str], _, _)] = &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "light/b", ratio)];
+        let planted = Bench { mistakes: &[PI], gives };
+        assert_eq!(diagnose_proven(&made().evidence(), &planted).headlines.len(), headlines);
+    }
+}
+
+#[test]
+fn what_only_informs_says_what_a_failure_looks_like() {
+    let told_by = failing("the other way").because(&bsdf::WITHOUT_PI, "x");
+    let made = Made::new().with("light/b", light(0.4)).with("bsdf/a", told_by).informing("bsdf/a");
+    for (ratio, cause) in [(0.7, bsdf::WITHOUT_PI.name), (1.5, "")] {
+        let gives: &[(&[&str], _, _)] = &[(&["pi"], "light/b", ratio)];
+        let diagnosis = diagnose_proven(&made.evidence(), &Bench { mistakes: &[PI], gives });
+        assert_eq!(told(&diagnosis)[0].0, cause);
+        assert_ne!(told(&diagnosis)[0].1, Degree::Named);
+    }
+}
+
+#[test]
+fn what_all_that_is_told_gives_together_is_no_further_mistake() {
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+        .with("light/c", light(0.7));
+    let told_both: &[&str] = &["pi", "divided"];
+    let gives: &[(&[&str], _, _)] = &[
+        (&["pi"], "bsdf/a", 1.5),
+        (&["divided"], "light/b", 0.5),
+        (told_both, "light/c", 0.7),
+        (&["pi", "divided", "again"], "light/c", 0.7),
+    ];
+    let planted = Bench { mistakes: &[PI, DIVIDED, AGAIN], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
+    assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+}
+
+#[test]
+fn of_all_that_is_told_each_explains_what_it_is_needed_for() {
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+        .with("light/c", light(0.7))
+        .with("light/d", light(0.6));
+    let gives: &[(&[&str], _, _)] = &[
+        (&["pi"], "bsdf/a", 1.5),
+        (&["divided"], "light/b", 0.5),
+        (&["pi", "divided"], "light/c", 0.7),
+        (&["pi", "divided"], "light/d", 0.6),
+        (&["divided"], "light/d", 0.6),
+    ];
+    let planted = Bench { mistakes: &[PI, DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let names = [(light::DIVIDED_BY_LIGHTS.name, 3), (bsdf::WITHOUT_PI.name, 2)];
+    assert_eq!(told(&diagnosis), names.map(|(name, cases)| (name, Degree::Named, cases)));
+}
+
+#[test]
+fn in_the_dark_a_mistake_that_would_leave_light_elsewhere_is_not_told() {
+    let dark = || light(0.0).because(&light::DIVIDED_BY_LIGHTS, "nothing arrives");
+    let planted = |ratio| -> [(&[&str], _, f64); 3] {
+        [
+            (&["divided"], "light/b", 0.0),
+            (&["divided"], "light/c", ratio),
+            (&["divided"], "light/d", ratio),
+        ]
+    };
+    let made = Made::new().with("light/b", dark()).with("light/c", light(0.0));
+    let made = made.with("light/d", light(0.0));
+    let of = |ratio| {
+        let planted = Bench { mistakes: &[DIVIDED], gives: &planted(ratio) };
+        told(&diagnose_proven(&made.evidence(), &planted))[0].0.to_owned()
+    };
+    assert_eq!(of(1.0), "");
+    assert_eq!(of(0.0), light::DIVIDED_BY_LIGHTS.name, "dark there too");
+}
+
+#[test]
+fn the_only_mistake_in_sight_that_darkens_its_own_case_is_named() {
+    let dark = || light(0.0).because(&light::DIVIDED_BY_LIGHTS, "nothing arrives");
+    let lit = |count: usize| {
+        let cases = ["light/c", "light/d", "light/e", "light/f"].into_iter().take(count);
+        cases.fold(Made::new().with("light/b", dark()), |made, case| made.with(case, passing()))
+    };
+    let of_one: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.0)];
+    let of_both: &[(&[&str], _, _)] = &[of_one[0], (&["again"], "light/b", 0.0)];
+    let degree = |lit_beside, mistakes: &[Mistake], gives| {
+        let planted = Bench { mistakes, gives };
+        told(&diagnose_proven(&lit(lit_beside).evidence(), &planted))[0].1
+    };
+    assert_eq!(degree(4, &[DIVIDED], of_one), Degree::Named);
+    assert_eq!(degree(4, &[DIVIDED, AGAIN], of_one), Degree::Named, "the other changes nothing");
+    assert_eq!(degree(4, &[DIVIDED, AGAIN], of_both), Degree::LooksLike);
+    assert_eq!(degree(1, &[DIVIDED], of_one), Degree::LooksLike, "who knows what else is dark");
+}
+
+#[test]
+fn a_cause_whose_mistake_fails_more_that_passes_than_it_explains_is_not_told() {
+    let halved = || light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved");
+    let gives: &[(&[&str], _, _)] = &[
+        (&["divided"], "light/b", 0.5),
+        (&["divided"], "light/c", 0.5),
+        (&["divided"], "light/d", 0.5),
+        (&["divided"], "light/e", 0.5),
+    ];
+    let planted = Bench { mistakes: &[DIVIDED], gives };
+    let others_are = |other: fn() -> Finding| {
+        let made = Made::new().with("light/b", halved());
+        let made = ["light/c", "light/d", "light/e"]
+            .iter()
+            .fold(made, |made, case| made.with(*case, other()));
+        told(&diagnose_proven(&made.evidence(), &planted))[0].0.to_owned()
+    };
+    assert_eq!(others_are(passing), "");
+    assert_eq!(others_are(|| light(1.5)), "");
+    assert_eq!(others_are(|| light(0.5)), light::DIVIDED_BY_LIGHTS.name);
+}
+
+#[test]
+fn what_looks_like_the_cause_of_one_of_many_failures_is_not_told() {
+    let shared = light(0.5).because(&light::DIVIDED_BY_LIGHTS, "x");
+    let shared = shared.because(&integrator::EMISSION_AGAIN, "y");
+    let few = Made::new().with("light/a", shared);
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let told_of = |made: &Made| told(&diagnose_proven(&made.evidence(), &planted))[0].1;
+    assert_eq!(told_of(&few), Degree::LooksLike);
+    let others = ["b", "c", "d", "e", "f", "g", "h", "i"].map(|name| format!("light/{name}"));
+    let many = others.iter().fold(few, |made, name| made.with(&name[..], light(0.3)));
+    assert_eq!(told_of(&many), Degree::DiffersHere);
+}
+
+#[test]
+fn a_cause_above_what_is_wrong_by_itself_only_looks_like_it() {
+    let halved = Mistake { components: Components::DIRECT_LIGHTING, ..DIVIDED };
+    let sampler = Mistake {
+        components: Components::LIGHT_SAMPLING,
+        ..mistake("pdf", &light::LIGHT_PDF_PER_AREA, "light/samples")
+    };
+    let made = Made::new()
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved"))
+        .with("light/samples", light(0.3));
+    let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/b", 0.5)];
+    let degree = |mistakes: &[Mistake]| {
+        let planted = Bench { mistakes, gives };
+        told(&diagnose_proven(&made.evidence(), &planted))[0].1
+    };
+    assert_eq!(degree(&[halved]), Degree::Named);
+    assert_eq!(degree(&[halved, sampler]), Degree::LooksLike);
+}
+
+#[test]
+fn what_no_rule_explains_and_the_mistake_of_a_cause_gives_is_of_that_cause() {
+    let made = Made::new()
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "halved"))
+        .with("light/c", light(0.7))
+        .with("integrator/d", light(0.6));
+    let gives: &[(&[&str], _, _)] =
+        &[(&["divided"], "light/b", 0.5), (&["divided"], "integrator/d", 0.6)];
+    let planted = Bench { mistakes: &[DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    let divided = light::DIVIDED_BY_LIGHTS.name;
+    assert_eq!(told(&diagnosis)[0], (divided, Degree::Named, 2));
+    assert_eq!(diagnosis.unexplained, ["light/c"]);
+}
+
+#[test]
+fn of_many_mistakes_one_that_comes_to_a_single_number_only_looks_like_it() {
+    let made = Made::new().with("bsdf/a", light(0.5)).with("light/b", light(0.5));
+    let mistakes = [PI, DIVIDED, AGAIN];
+    let gives: &[(&[&str], _, _)] = &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "light/b", 0.5)];
+    let planted = Bench { mistakes: &mistakes, gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    assert_eq!(told(&diagnosis), [(bsdf::WITHOUT_PI.name, Degree::LooksLike, 2)]);
+}
+
+#[test]
+fn patterns_of_lost_hits_that_contradict_each_other_are_told_as_lost_hits() {
+    let skipped = failing("a").because(&bvh::SECOND_CHILD_SKIPPED, "x");
+    let overwritten = failing("b").because(&bvh::RANGE_OVERWRITTEN, "y");
+    let one = Made::new().with("bvh/a", skipped);
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let alone = diagnose_proven(&one.evidence(), &planted);
+    assert_eq!(told(&alone), [(bvh::SECOND_CHILD_SKIPPED.name, Degree::Named, 1)]);
+    let both = one.with("bvh/b", overwritten);
+    let diagnosis = diagnose_proven(&both.evidence(), &planted);
+    assert_eq!(told(&diagnosis), [(bvh::HITS_LOST.name, Degree::Named, 2)]);
+}
+
+#[test]
+fn a_mistake_of_a_lower_component_that_alone_gives_the_numbers_is_looked_like() {
+    let made = Made::new().with("bsdf/a", light(0.5)).with("bsdf/b", light(0.7));
+    let gives: &[(&[&str], _, _)] = &[(&["pi"], "bsdf/a", 0.5), (&["pi"], "bsdf/b", 0.7)];
+    let planted = Bench { mistakes: &[PI], gives };
+    let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
+    let pi = bsdf::WITHOUT_PI.name;
+    assert_eq!(told(&ranked.told()), [(pi, Degree::LooksLike, 2)]);
+}
+
+#[test]
+fn a_mistake_of_the_path_that_direct_lighting_mends_is_looked_like_if_its_own_case_fails() {
+    let of_path = |caught_by| Mistake {
+        components: Components::PATH,
+        ..mistake("pi", &bsdf::WITHOUT_PI, caught_by)
+    };
+    let made = Made::new().with("light/b", light(0.5)).with("light/c", light(0.7));
+    let gives: &[(&[&str], _, _)] = &[(&["pi"], "light/b", 0.5), (&["pi"], "light/c", 0.7)];
+    let degree = |mistake: Mistake, broken: Components| {
+        let planted = Bench { mistakes: &[mistake], gives };
+        let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(broken));
+        told(&ranked.told())[0].1
+    };
+    let direct = Components::DIRECT_LIGHTING;
+    assert_eq!(degree(of_path("light/b"), direct), Degree::LooksLike);
+    assert_eq!(degree(of_path("light/b"), Components::BSDF), Degree::DiffersHere);
+}
+
+#[test]
+fn what_the_traversal_mends_is_no_mistake_of_a_pixel() {
+    let pixel = Mistake { components: Components::PIXEL, ..PI };
+    let finding = || light(0.5).because(&bsdf::WITHOUT_PI, "x");
+    let made = Made::new().with("bsdf/a", finding());
+    let planted = Bench { mistakes: &[pixel], gives: &[(&["pi"], "bsdf/a", 0.5)] };
+    let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
+    assert_eq!(of(MadeIn::Mended(Components::TRAVERSAL)), Degree::DiffersHere);
+    assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
+}
+
+#[test]
+fn a_factor_of_images_that_the_direct_light_mends_is_none_of_the_film() {
+    use crate::cause::image;
+    let factor = || Finding {
+        measures: Vec::new(),
+        ..light(0.5).because_in_size(&image::FACTOR, "half", Some([0.49, 0.51]))
+    };
+    let made = Made::new().with("image/a", factor()).with("image/b", factor());
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
+    assert_eq!(of(MadeIn::Mended(Components::DIRECT_LIGHTING)), Degree::DiffersHere);
+    assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
+}
+
+#[test]
+fn a_mistake_whose_own_case_passes_is_not_there() {
+    let made = Made::new().with("light/c", light(0.5)).with("light/b", passing());
+    let gives: &[(&[&str], _, _)] = &[(&["divided"], "light/c", 0.5)];
+    let planted = Bench { mistakes: &[DIVIDED], gives };
+    let diagnosis = diagnose_proven(&made.evidence(), &planted);
+    assert_eq!(told(&diagnosis), [("", Degree::DiffersHere, 1)]);
+}
+
+#[test]
+fn a_mistake_of_another_component_than_the_one_that_mends_only_looks_like_it() {
+    let finding = light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y");
+    let made = Made::new().with("light/b", finding).with("light/c", light(0.25));
+    let gives: &[(&[&str], _, _)] =
+        &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", 0.25)];
+    let planted = Bench { mistakes: &[DIVIDED], gives };
+    let ranked = proven(&made.evidence(), &planted, MadeIn::Mended(Components::PATH));
+    let divided = light::DIVIDED_BY_LIGHTS.name;
+    assert_eq!(told(&ranked.told()), [(divided, Degree::LooksLike, 2)]);
+}

@@ -5,15 +5,15 @@ use super::{Cause, causes};
 causes! {
     NOT_A_NUMBER = "answer-not-a-number":
         "an answer is NaN",
-        at "divisions whose divisor can be 0, and square roots",
+        at "often divisions whose divisor can be 0, and square roots",
         fix "Look for 0/0, ∞ − ∞, square roots of negative numbers, and uninitialised variables.";
     INFINITE = "answer-infinite":
         "an answer is infinite",
-        at "divisions whose divisor can be 0",
+        at "often divisions whose divisor can be 0",
         fix "Never divide by 0: a failed sample contributes 0.";
     NEGATIVE = "answer-negative":
         "an answer is negative where it cannot be",
-        at "cosines used without a test of their sign",
+        at "often cosines used without a test of their sign",
         fix "Light from below the horizon contributes 0: clamp the cosine, or return early.";
     UNTOUCHED = "answer-untouched":
         "an answer is never written",

@@ -101,9 +101,10 @@ pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
         || *cause == shape::DETERMINANT_THRESHOLD && *other == integrator::FIXED_LENGTH
 }
 
-/// Whether the cause says what form an answer has not, and not what gave it that.
+/// Whether it tells what a number is, and not what made it so: a missing normalisation, or an answer that is never
+/// written, is a mistake itself.
 pub(crate) fn is_symptom(cause: &Cause) -> bool {
-    contract::CAUSES.contains(&cause)
+    [&contract::NOT_A_NUMBER, &contract::INFINITE, &contract::NEGATIVE].contains(&cause)
 }
 
 /// Whether it is a mistake of the film that only a whole image shows.

@@ -2,7 +2,7 @@
 //! is told of each is told of that component alone.
 
 use super::rank::Ranked;
-use super::reproduction::{MadeIn, Sifted, proven};
+use super::reproduction::{MadeIn, Sifted, proven, without_what_follows};
 use super::{Diagnosis, Evidence, Planted};
 use crate::contract::Components;
 use std::collections::BTreeMap;
@@ -86,7 +86,8 @@ pub(crate) fn diagnose_apart(
         }
     }
     let is_tried = |case: &str| unmended.iter().any(|other| other == case);
-    told.and(left.and_searched().unless_below(broken, is_tried)).told()
+    let told = told.and(left.and_searched().unless_below(broken, is_tried));
+    without_what_follows(told, first, planted).told()
 }
 
 #[cfg(test)]

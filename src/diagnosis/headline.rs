@@ -134,7 +134,7 @@ impl Headline {
 
     /// One failure without a cause: its trial says all there is.
     pub(crate) fn is_alone(&self) -> bool {
-        self.degree == Degree::DiffersHere && self.explains.len() == 1
+        self.degree == Degree::DiffersHere && self.cause.is_empty() && self.explains.len() == 1
     }
 
     /// Whether it explains the failure, or the failure may follow from it.
@@ -161,8 +161,12 @@ impl Headline {
 
     /// Whether it tells what gave the answers their numbers.
     pub(super) fn is_sure(&self) -> bool {
-        let is_symptom = cause::find(&self.cause).is_some_and(cause::is_symptom);
-        self.degree == Degree::Named && !is_symptom
+        self.degree == Degree::Named && !self.is_symptom()
+    }
+
+    /// Whether it tells the form of an answer, and not what gave it.
+    pub(super) fn is_symptom(&self) -> bool {
+        cause::find(&self.cause).is_some_and(cause::is_symptom)
     }
 
     /// Takes in another headline of the same cause.

@@ -9,9 +9,9 @@ use crate::checks::Finding;
 const MIRRORS: Role = Role::Mirrors;
 const FURNACE: Role = Role::Furnace;
 
-/// Mirrors and glass are dark, and the furnace is right.
+/// Mirrors and glass are dark, and the furnace is right: one too noisy to be judged is not.
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    if evidence.failed_finding(MIRRORS).is_none() || evidence.failed_finding(FURNACE).is_some() {
+    if evidence.failed_finding(MIRRORS).is_none() || !evidence.has_passed(FURNACE) {
         return Vec::new();
     }
     let failing: Vec<_> = evidence.failures().map(|seen| seen.case.to_owned()).collect();
@@ -46,6 +46,7 @@ mod tests {
     use crate::case::Foundation;
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::image::Channel;
+    use crate::stats::Verdict;
 
     #[test]
     fn mirrors_that_show_nothing_are_named_where_the_furnace_is_right() {
@@ -58,6 +59,9 @@ mod tests {
         };
         let unmet = broken(made).resting("integrator/Mirrors", &[Foundation::Hits]);
         assert_ne!(unmet.first(), Some(integrator::NO_EMISSION_AFTER_SPECULAR.name));
+        let open = Finding { verdict: Verdict::Inconclusive, ..passing() };
+        let noisy = Made::new().with(MIRRORS, dark()).with(FURNACE, open);
+        assert_eq!(noisy.first(), None);
         let dim = means(vec![mean("bounce 3", Channel::Red, 0.5, 0.7, 1e-4)]);
         let made = Made::new().with(MIRRORS, dim).with(FURNACE, passing());
         assert_eq!(made.first(), None);

@@ -50,6 +50,10 @@ impl Ranked {
         let kinds = [this.endings, causes, this.beside];
         let mut headlines: Vec<_> = kinds.into_iter().flatten().collect();
         rule_out_once(&mut headlines);
+        // The form of an answer is seen, and not what gave it.
+        for symptom in headlines.iter_mut().filter(|headline| headline.is_symptom()) {
+            symptom.degree = Degree::DiffersHere;
+        }
         Diagnosis { headlines, unexplained }
     }
 
@@ -131,14 +135,23 @@ impl Ranked {
         self.differing.iter().flat_map(|headline| &headline.explains)
     }
 
+    /// Answers of the wrong form, whatever made them.
+    pub(super) fn symptoms(&self) -> impl Iterator<Item = &Headline> {
+        self.with_cause().filter(|headline| headline.is_symptom())
+    }
+
     /// These failures follow from what is named.
     pub(super) fn follow(&mut self, cases: &[String]) {
-        let named = |headline: &&mut Headline| headline.degree == Degree::Named;
-        let Some(first) = self.causes.iter_mut().find(named) else { return };
-        for headline in &mut self.differing {
-            first.may_follow.extend(headline.explains.extract_if(.., |case| cases.contains(case)));
-        }
+        let Some(first) = self.causes.iter().position(Headline::is_sure) else { return };
+        let symptoms = self.causes.iter_mut().filter(|headline| headline.is_symptom());
+        let without_cause = self.differing.iter_mut().chain(symptoms);
+        let follows = |headline: &mut Headline| -> Vec<_> {
+            headline.explains.extract_if(.., |case| cases.contains(case)).collect()
+        };
+        let following: Vec<_> = without_cause.flat_map(follows).collect();
+        self.causes[first].may_follow.extend(following);
         self.differing.retain(|headline| !headline.explains.is_empty());
+        self.causes.retain(|headline| !headline.explains.is_empty());
     }
 
     /// What differs, and what no more than looks like a cause.
@@ -567,6 +580,16 @@ mod tests {
         assert_eq!(degree(&shared), Degree::LooksLike);
         let proven = shared.with("light/b", failing("a").because(&bsdf::WITHOUT_PI, "x"));
         assert_eq!(degree(&proven), Degree::Named);
+    }
+
+    #[test]
+    fn the_form_of_an_answer_is_seen_and_is_no_mistake_with_a_name() {
+        let made =
+            Made::new().with("light/a", failing("NaN").because(&contract::NOT_A_NUMBER, "NaN"));
+        let told = diagnose(&made.evidence());
+        let [symptom] = &told.headlines[..] else { panic!("{told:?}") };
+        assert_eq!(symptom.degree, Degree::DiffersHere);
+        assert!(!symptom.fix.is_empty() && !symptom.is_alone(), "its words help all the same");
     }
 
     #[test]

@@ -98,6 +98,18 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
     Sifted::of(evidence, planted, made_in).and_searched()
 }
 
+/// The same where an answer of the wrong form that all that is named together gives, wherever it is made, follows from it.
+pub(super) fn without_what_follows(
+    mut told: Ranked,
+    evidence: &Evidence<'_>,
+    planted: &dyn Planted,
+) -> Ranked {
+    let proof = Proof { evidence, planted, made_in: MadeIn::Unknown };
+    let following = proof.symptoms_given_by_all(&told);
+    told.follow(&following);
+    told
+}
+
 /// What rules suspect, put to the proof. It takes little time; the search for what no rule knows takes much.
 pub(super) struct Sifted<'a> {
     proof: Proof<'a>,

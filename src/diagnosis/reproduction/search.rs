@@ -300,6 +300,18 @@ impl<'a> Proof<'a> {
         if given.len() == asked.len() { left } else { given }
     }
 
+    /// Answers of the wrong form that all that is named together gives, too.
+    pub(super) fn symptoms_given_by_all(&self, told: &Ranked) -> Vec<String> {
+        let named = self.named(told);
+        let is_given = |symptom: &&Headline| {
+            let cases = self.quickest(&symptom.explains);
+            let answers = self.compare(slice::from_ref(&named), &cases).remove(0);
+            !cases.is_empty() && answers.into_iter().all(|of| of == Likeness::Same)
+        };
+        let given = told.symptoms().filter(|_| !named.is_empty()).filter(is_given);
+        given.flat_map(|symptom| &symptom.explains).cloned().collect()
+    }
+
     /// Each suspicion of a `set` in the cases that the others alone do not reproduce.
     fn where_needed(
         &self,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::case::Foundation;
-use crate::cause::{bsdf, bvh, integrator, light};
+use crate::cause::{bsdf, bvh, contract, integrator, light};
 use crate::diagnosis::testing::{Made, failing, mean, means, passing};
 use crate::diagnosis::{Degree, Diagnosis, diagnose, diagnose_proven};
 use crate::image::Channel;
@@ -469,6 +469,42 @@ fn what_all_that_is_told_gives_together_is_no_further_mistake() {
     let diagnosis = diagnose_proven(&made.evidence(), &planted);
     let names = [bsdf::WITHOUT_PI.name, light::DIVIDED_BY_LIGHTS.name];
     assert_eq!(told(&diagnosis), names.map(|name| (name, Degree::Named, 2)));
+}
+
+/// Two mistakes, by which together, and by neither alone, an answer is negative.
+struct NegativeTogether(bool);
+
+impl Planted for NegativeTogether {
+    fn mistakes(&self) -> &[Mistake] {
+        &[PI, COSINE]
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let answer = |question: &Question<'_>| match self.0 && question.mistakes.len() == 2 {
+            true => failing("-1").because(&contract::NEGATIVE, "-1"),
+            false => passing(),
+        };
+        questions.iter().map(|question| Some(answer(question))).collect()
+    }
+}
+
+#[test]
+fn an_answer_of_the_wrong_form_that_all_that_is_named_gives_follows_from_it() {
+    let made = Made::new()
+        .with("bsdf/a", failing("a").because(&bsdf::WITHOUT_PI, "a"))
+        .with("light/b", failing("b").because(&light::WORLD_COSINE, "b"))
+        .with("integrator/c", failing("-1").because(&contract::NEGATIVE, "-1"));
+    let evidence = made.evidence();
+    let told = |bench| {
+        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
+        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        told.into_iter().map(|told| (told.cause, told.may_follow)).collect::<Vec<_>>()
+    };
+    let alone = |cause: &Cause| (cause.name.to_owned(), Vec::new());
+    let named = (bsdf::WITHOUT_PI.name.to_owned(), vec!["integrator/c".to_owned()]);
+    assert_eq!(told(NegativeTogether(true)), [named, alone(&light::WORLD_COSINE)]);
+    let all = [&bsdf::WITHOUT_PI, &light::WORLD_COSINE, &contract::NEGATIVE];
+    assert_eq!(told(NegativeTogether(false)), all.map(alone), "something else gives it");
 }
 
 #[test]

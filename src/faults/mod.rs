@@ -6,7 +6,7 @@
 
 mod together;
 
-pub use crate::cores::textbook::fault::{Fault, integrator::UNCAUGHT};
+pub use crate::cores::textbook::fault::Fault;
 pub use together::{Together, Told};
 
 use crate::case::{Case, NothingSelected, Part, Subject};

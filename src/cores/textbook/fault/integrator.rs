@@ -16,10 +16,6 @@ use std::f64::consts::TAU;
 const FURNACE: &str = "integrator/furnace-matches-geometric-series";
 const ROULETTE: &str = "integrator/russian-roulette-leaves-the-mean-unchanged";
 
-/// The fault that no case catches: its weight |wz| / cos θ has no finite variance, and what looks too dark under a heavy
-/// tail is inconclusive.
-pub const UNCAUGHT: &str = "bounce-world-cosine";
-
 faults! { part 4;
     "depth-off-by-one": "-m N shows N − 1 bounces",
         fails FURNACE, told integrator::ONE_BOUNCE_SHORT,
@@ -82,8 +78,9 @@ faults! { part 4;
     "bounce-without-cosine": "a bounce is weighted with f/pdf",
         fails FURNACE, told integrator::BOUNCE_WITHOUT_COSINE,
         bounce_weight = |f, sample, _| f / sample.pdf;
+    // Behind diffuse surfaces its weight |wz| / cos θ has no finite variance, and leaves open what it makes of the mean.
     "bounce-world-cosine": "the cosine of a bounce is wi.z in the world",
-        fails "integrator/radiosity-is-the-same-at-every-orientation",
+        fails "integrator/smooth-mirror-reflects-by-its-shading-normals",
         told integrator::BOUNCE_WORLD_COSINE,
         bounce_weight = |f, sample, direction| f * direction.z.abs() / sample.pdf;
     "bounce-local-direction": "the bounce is traced in its local direction: o2w is forgotten",

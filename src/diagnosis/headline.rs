@@ -164,7 +164,7 @@ impl Headline {
         self.degree == Degree::Named && !self.is_symptom()
     }
 
-    /// Whether it tells the form of an answer, and not what gave it.
+    /// Whether it tells what a number is, and not what made it so.
     pub(super) fn is_symptom(&self) -> bool {
         cause::find(&self.cause).is_some_and(cause::is_symptom)
     }

@@ -50,7 +50,7 @@ impl Ranked {
         let kinds = [this.endings, causes, this.beside];
         let mut headlines: Vec<_> = kinds.into_iter().flatten().collect();
         rule_out_once(&mut headlines);
-        // The form of an answer is seen, and not what gave it.
+        // That a number is NaN is seen, and not what made it so.
         for symptom in headlines.iter_mut().filter(|headline| headline.is_symptom()) {
             symptom.degree = Degree::DiffersHere;
         }
@@ -135,7 +135,7 @@ impl Ranked {
         self.differing.iter().flat_map(|headline| &headline.explains)
     }
 
-    /// Answers of the wrong form, whatever made them.
+    /// Numbers that are NaN, infinite or negative, whatever made them so.
     pub(super) fn symptoms(&self) -> impl Iterator<Item = &Headline> {
         self.with_cause().filter(|headline| headline.is_symptom())
     }
@@ -583,7 +583,7 @@ mod tests {
     }
 
     #[test]
-    fn the_form_of_an_answer_is_seen_and_is_no_mistake_with_a_name() {
+    fn that_a_number_is_nan_is_seen_and_is_no_mistake_with_a_name() {
         let made =
             Made::new().with("light/a", failing("NaN").because(&contract::NOT_A_NUMBER, "NaN"));
         let told = diagnose(&made.evidence());

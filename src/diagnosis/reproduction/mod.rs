@@ -98,7 +98,8 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
     Sifted::of(evidence, planted, made_in).and_searched()
 }
 
-/// The same where an answer of the wrong form that all that is named together gives, wherever it is made, follows from it.
+/// The same where NaN, infinite and negative numbers that all that is named gives together follow from it, whatever
+/// component each mistake is made in.
 pub(super) fn without_what_follows(
     mut told: Ranked,
     evidence: &Evidence<'_>,

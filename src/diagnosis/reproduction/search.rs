@@ -300,7 +300,7 @@ impl<'a> Proof<'a> {
         if given.len() == asked.len() { left } else { given }
     }
 
-    /// Answers of the wrong form that all that is named together gives, too.
+    /// Cases with NaN, infinite or negative numbers that all that is named gives together, too.
     pub(super) fn symptoms_given_by_all(&self, told: &Ranked) -> Vec<String> {
         let named = self.named(told);
         let is_given = |symptom: &&Headline| {

@@ -489,7 +489,7 @@ impl Planted for NegativeTogether {
 }
 
 #[test]
-fn an_answer_of_the_wrong_form_that_all_that_is_named_gives_follows_from_it() {
+fn a_negative_number_that_all_that_is_named_gives_follows_from_it() {
     let made = Made::new()
         .with("bsdf/a", failing("a").because(&bsdf::WITHOUT_PI, "a"))
         .with("light/b", failing("b").because(&light::WORLD_COSINE, "b"))

@@ -36,11 +36,11 @@ pub(crate) fn doctor(arguments: &DoctorArguments) -> Answer {
     let mut code = ExitCode::Good;
     for spec in &cores {
         let begun = Instant::now();
-        say_line!("core   {spec}");
+        say_line!("core     {spec}");
         match hosting.host(spec) {
             Ok(mut hosted) => {
                 let milliseconds = begun.elapsed().as_millis();
-                say_line!("       starts in {milliseconds} ms, {}", place(&hosted));
+                say_line!("         starts in {milliseconds} ms, {}", place(&hosted));
                 let info = hosted.core_mut().info();
                 introduce(&info);
                 tell_walls(&hosted, &hosting);
@@ -65,10 +65,20 @@ fn introduce(info: &CoreInfo) {
         Precision::Single => "single",
         Precision::Double => "double",
     };
-    say_line!("       {} {}, {precision} precision", info.name, info.version);
-    tell("can", &info.capabilities.names());
-    tell("cannot", &(Capabilities::all() - info.capabilities).names());
+    say_line!("         {} {}, {precision} precision", info.name, info.version);
+    tell_abilities(info.capabilities);
+    tell("takes", &info.components.names());
     tell("chose", &conventions(info.conventions));
+}
+
+/// What is only said is no ability: a core that does not promise it is free to do otherwise.
+fn tell_abilities(has: Capabilities) {
+    let promises = Capabilities::PROMISES - Capabilities::SPLIT_RULES;
+    let able = Capabilities::all() - promises;
+    tell("can", &(has & able).names());
+    tell("cannot", &(able - has).names());
+    tell("promises", &(has & promises).names());
+    tell("free in", &(promises - has).names());
 }
 
 /// What the core has chosen, as a file would say it.
@@ -92,30 +102,30 @@ fn tell_walls(hosted: &Hosted, hosting: &Hosting) {
 
 fn tell_next_steps(cases: &[Arc<Case>], has: Capabilities) {
     let open = cases.iter().filter(|case| case.prepared.missing(has).is_empty()).count();
-    say_line!("tried  on {open} of {} cases", cases.len());
+    say_line!("tried    on {open} of {} cases", cases.len());
     for (number, step) in next_steps(cases, has).iter().take(STEPS).enumerate() {
         let label = if number == 0 { "next" } else { "then" };
         let names = step.missing.names().join(", ");
-        say_line!("{label:<7}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
+        say_line!("{label:<9}{names}: {} more cases, as {}", step.cases.len(), step.cases[0]);
         for one in step.missing.iter() {
-            say_line!("         {}", advice(one));
+            say_line!("           {}", advice(one));
         }
     }
 }
 
 fn tell(label: &str, lines: &[String]) {
     for (number, line) in lines.iter().enumerate() {
-        say_line!("{:<7}{line}", if number == 0 { label } else { "" });
+        say_line!("{:<9}{line}", if number == 0 { label } else { "" });
     }
 }
 
 /// A core that dies has failed; what is no core at all is a wrong request.
 fn tell_failure(error: HostError) -> ExitCode {
-    say_line!("       fails to start: {error}");
+    say_line!("         fails to start: {error}");
     match error {
         HostError::Start(StartError::Core { error, printed }) => {
             for line in printed.lines() {
-                say_line!("printed {line}");
+                say_line!("printed  {line}");
             }
             match error {
                 CoreError::Crashed { .. } | CoreError::TimedOut { .. } => ExitCode::Failed,

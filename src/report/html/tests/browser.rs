@@ -122,7 +122,8 @@ impl Browser {
     fn command(&self, profile: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command.args(self.arguments).args((self.profile)(profile));
-        command.stdout(Stdio::null()).stderr(Stdio::null());
+        // What a browser that is ended leaves behind goes with its profile.
+        command.env("TMPDIR", profile).stdout(Stdio::null()).stderr(Stdio::null());
         command
     }
 

@@ -353,8 +353,12 @@ struct Facet : Primitive {
    BBox get_bbox() const override { return inner().get_bbox(); }
    bool has_intersection(const Ray &ray) const override {
       ++counts->tests;
-      if (is_tested_by_bench()) return hit_of_bench(ours(ray)).primitive != FURNACE_NONE;
-      return inner().has_intersection(ray);
+      if (!is_tested_by_bench()) return inner().has_intersection(ray);
+      const furnace_hit found = hit_of_bench(ours(ray));
+      if (found.primitive == FURNACE_NONE) return false;
+      // Many an any-hit ends the ray where it hits, and a BVH may go by that; what follows may find this hit again.
+      ray.max_t = std::nextafter(found.t, INFINITY);
+      return true;
    }
    bool intersect(const Ray &ray, Intersection *hit) const override {
       ++counts->tests;
@@ -390,16 +394,40 @@ struct Facet : Primitive {
    void  drawOutline(const CGL::Color &, float) const override {}
 };
 
-CGL::SceneObjects::Triangle triangle_of(const furnace_vec3 *positions, const furnace_vec3 *normals,
-                                        BSDF *bsdf) {
-   CGL::SceneObjects::Triangle made;
-   made.p1 = theirs(positions[0]), made.p2 = theirs(positions[1]), made.p3 = theirs(positions[2]);
-   made.n1 = theirs(normals[0]), made.n2 = theirs(normals[1]), made.n3 = theirs(normals[2]);
-   made.bsdf = bsdf;
-   made.bbox = BBox(made.p1);
-   made.bbox.expand(made.p2);
-   made.bbox.expand(made.p3);
-   return made;
+// Whether a triangle is made of a mesh, as in the skeleton.
+template <class Triangle, class Mesh, class = void> struct IsMadeOfMesh : std::false_type {};
+template <class Triangle, class Mesh>
+struct IsMadeOfMesh<
+    Triangle, Mesh,
+    std::void_t<decltype(Mesh(std::declval<const CGL::HalfedgeMesh &>(), std::declval<BSDF *>())),
+                decltype(std::declval<Mesh &>().positions = std::declval<Vector3D *>()),
+                decltype(std::declval<Mesh &>().normals = std::declval<Vector3D *>()),
+                decltype(Triangle(std::declval<const Mesh *>(), size_t(), size_t(), size_t()))>>
+    : std::true_type {};
+
+// By the student's own constructor, which may keep more than the corners, such as edges.
+template <class Triangle = CGL::SceneObjects::Triangle, class Mesh = CGL::SceneObjects::Mesh>
+Triangle triangle_of(const furnace_vec3 *positions, const furnace_vec3 *normals, BSDF *bsdf) {
+   thread_local Vector3D corners[3], directions[3];
+   for (int i = 0; i < 3; ++i)
+      corners[i] = theirs(positions[i]), directions[i] = theirs(normals[i]);
+   if constexpr (IsMadeOfMesh<Triangle, Mesh>::value) {
+      // Never deleted: what it points to is not its own.
+      thread_local Mesh &mesh = *new Mesh(CGL::HalfedgeMesh(), nullptr);
+      mesh.positions = corners, mesh.normals = directions;
+      Triangle made(&mesh, 0, 1, 2);
+      made.bsdf = bsdf;
+      return made;
+   } else {
+      Triangle made;
+      made.p1 = corners[0], made.p2 = corners[1], made.p3 = corners[2];
+      made.n1 = directions[0], made.n2 = directions[1], made.n3 = directions[2];
+      made.bsdf = bsdf;
+      made.bbox = BBox(made.p1);
+      made.bbox.expand(made.p2);
+      made.bbox.expand(made.p3);
+      return made;
+   }
 }
 
 // Any, where the triangle has no area: what is to be told is the hit.

@@ -68,6 +68,35 @@ pub(crate) fn indirect(bounce: u32) -> i32 {
 /// cos³ θ/π³ over the hemisphere.
 const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
 
+/// How single bounces are come by where sums are wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Single {
+    /// As a sum of one bounce.
+    Counted,
+    /// What they add to the sum before; emission and single scattering have functions of their own.
+    ByDifference,
+    /// By functions of their own.
+    Apart,
+}
+
+impl Single {
+    pub(super) const ALL: [Self; 3] = [Self::Counted, Self::ByDifference, Self::Apart];
+
+    /// The sum of these bounces as a mistake makes it.
+    pub(super) fn read(self, law: &Law, channel: &Channel, [first, last]: [u32; 2]) -> f64 {
+        let right = || channel.sum([first, last], |_| 1.0);
+        let up_to = |last: u32| (law.predict)(channel, [0, last]);
+        match (self, first, last) {
+            (Self::Counted, ..) => (law.predict)(channel, [first, last]),
+            (_, 0, 0) | (_, 1, 1) => right(),
+            (_, 0, _) => up_to(last),
+            (_, 1, _) => up_to(last) - channel.bounce(0),
+            (Self::ByDifference, ..) => up_to(last) - up_to(first - 1),
+            (Self::Apart, ..) => right(),
+        }
+    }
+}
+
 pub(crate) static LAWS: &[Law] = &[
     Law::new(
         &integrator::ONE_BOUNCE_SHORT,
@@ -115,6 +144,11 @@ pub(crate) static LAWS: &[Law] = &[
         &integrator::DEPTH_IGNORED,
         "whatever bounce is the last asked for, all later ones are there too",
         |c, [first, _]| c.sum([first, LAST], |_| 1.0),
+    ),
+    Law::new(
+        &integrator::DEPTH_IGNORED,
+        "of two bounces and more, whichever is the last asked for, all later ones are there too",
+        |c, [first, last]| c.sum([first, if last < 2 { last } else { LAST }], |_| 1.0),
     ),
     Law::new(
         &integrator::ZERO_DEPTH_LIT,

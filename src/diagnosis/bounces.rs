@@ -4,7 +4,7 @@
 //! case, channel by channel. Where no law fits and indirect light is off by one grey factor a bounce, the factor is
 //! fitted and told with its interval.
 
-use super::bounce_laws::{Channel, LAWS, Law, indirect};
+use super::bounce_laws::{Channel, LAWS, Law, Single, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels, fails_as};
 use super::{Degree, Evidence, RuledOut, Suspicion};
@@ -14,6 +14,7 @@ use crate::checks::Finding;
 use crate::image::CHANNELS;
 use crate::math::ratios::names_of;
 use crate::text::number::{figure, plus_minus};
+use std::collections::BTreeSet;
 
 /// The furnaces whose bounces are told one by one.
 pub(crate) const FURNACES: [Role; 2] = [Role::Furnace, Role::FurnaceByHemisphere];
@@ -28,7 +29,9 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
     let case = evidence.case(role);
     let Some(finding) = evidence.failed_finding(role) else { return Vec::new() };
     let Some(furnace) = Furnace::of(finding) else { return Vec::new() };
-    let fitting: Vec<_> = LAWS.iter().filter(|law| furnace.admits(law.predict)).collect();
+    let mut fitting: Vec<_> = LAWS.iter().filter(|law| furnace.follows(law)).collect();
+    let mut causes = BTreeSet::new();
+    fitting.retain(|law| causes.insert(law.cause.name));
     let weight = if fitting.len() == 1 { 1.0 } else { SHARED };
     let told = |law: &&Law| Suspicion {
         cause: law.cause,
@@ -45,6 +48,11 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
         return factor.or_else(|| furnace.lost_ways(case)).into_iter().collect();
     }
     fitting.iter().map(told).collect()
+}
+
+/// How a core comes by single bounces, as a furnace tells where sums are wrong.
+pub(crate) fn single_bounces(finding: &Finding) -> Option<Single> {
+    Furnace::of(finding)?.single()
 }
 
 fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
@@ -82,8 +90,12 @@ impl Furnace {
         Some(Self { channels, rows: rows(finding) })
     }
 
-    fn admits(&self, predict: fn(&Channel, [u32; 2]) -> f64) -> bool {
-        self.rows.iter().all(|row| self.row_admits(row, &predict))
+    /// Whether every number is as the law has it, however single bounces are come by.
+    fn follows(&self, law: &Law) -> bool {
+        Single::ALL.into_iter().any(|single| {
+            let predict = |channel: &Channel, bounces| single.read(law, channel, bounces);
+            self.rows.iter().all(|row| self.row_admits(row, &predict))
+        })
     }
 
     fn row_admits(&self, row: &Row, predict: &impl Fn(&Channel, [u32; 2]) -> f64) -> bool {
@@ -91,6 +103,53 @@ impl Furnace {
             let right = channel.sum(row.bounces, |_| 1.0);
             reading.is_none_or(|reading| reading.admits(predict(channel, row.bounces) / right))
         })
+    }
+
+    /// How the core comes by single bounces, if its sums are wrong and nothing that it gives alone tells of it.
+    fn single(&self) -> Option<Single> {
+        let is_right = |row: &Row| row.readings.iter().flatten().all(|one| one.admits(1.0));
+        let [mut alone, mut sums] = [Vec::new(), Vec::new()];
+        for row in &self.rows {
+            if row.bounces[0] == row.bounces[1] { &mut alone } else { &mut sums }.push(row);
+        }
+        let (of_course, later): (Vec<&Row>, Vec<&Row>) =
+            alone.into_iter().partition(|row| row.bounces[0] < 2);
+        let are_wrong = !sums.iter().all(|row| is_right(row));
+        match of_course.iter().all(|row| is_right(row)) && are_wrong && !later.is_empty() {
+            false => None,
+            true if later.iter().all(|row| is_right(row)) => Some(Single::Apart),
+            true => self.adds_up(&sums, &later).then_some(Single::ByDifference),
+        }
+    }
+
+    /// Whether single bounces are what separates two sums, wherever all between the two are known.
+    fn adds_up(&self, sums: &[&Row], later: &[&Row]) -> bool {
+        let between = |less: &Row, more: &Row| {
+            let bounces = less.bounces[1] + 1..=more.bounces[1];
+            let found = bounces.map(|k| later.iter().find(|row| row.bounces[0] == k).copied());
+            found.collect::<Option<Vec<&Row>>>().filter(|between| !between.is_empty())
+        };
+        let pairs = sums.iter().flat_map(|less| sums.iter().map(move |more| (*less, *more)));
+        let mut known = pairs
+            .filter_map(|(less, more)| Some((less, more, between(less, more)?)))
+            .flat_map(|(less, more, between)| {
+                (0..3).map(move |channel| (less, more, between.clone(), channel))
+            })
+            .peekable();
+        let light = |row: &Row, channel: usize| {
+            let right = self.channels[channel].sum(row.bounces, |_| 1.0);
+            row.readings[channel].map(|reading| reading.interval.map(|ratio| ratio * right))
+        };
+        known.peek().is_some()
+            && known.all(|(less, more, between, channel)| {
+                let (Some(less), Some(more)) = (light(less, channel), light(more, channel)) else {
+                    return false;
+                };
+                let single = between.iter().map(|row| light(row, channel));
+                let Some(single) = single.collect::<Option<Vec<_>>>() else { return false };
+                let [low, high] = [0, 1].map(|end| single.iter().map(|light| light[end]).sum());
+                more[0] - less[1] <= high && low <= more[1] - less[0]
+            })
     }
 
     /// Isolated bounces beside what they should be; where these are right, their sums.
@@ -293,6 +352,7 @@ fn bounces_of(row: &str) -> Option<[u32; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cause::Cause;
     use crate::diagnosis::diagnose;
     use crate::diagnosis::testing::{Made, mean, means};
 
@@ -328,6 +388,38 @@ mod tests {
                 "{seen}"
             );
         }
+    }
+
+    /// A law of the sums alone.
+    fn law(cause: &Cause, words: &str) -> &'static Law {
+        let mut of_cause = LAWS.iter().filter(|law| law.cause.name == cause.name);
+        of_cause.find(|law| law.words.contains(words)).unwrap()
+    }
+
+    #[test]
+    fn a_law_of_sums_is_told_however_single_bounces_are_come_by() {
+        let laws = [
+            law(&integrator::DEPTH_IGNORED, "of two bounces and more"),
+            law(&integrator::ONE_BOUNCE_LONG, "every sum holds one bounce more"),
+            law(&integrator::ONE_BOUNCE_SHORT, "from the second on"),
+        ];
+        for law in laws {
+            for single in [Single::ByDifference, Single::Apart] {
+                let finding = furnace(|channel, rows| single.read(law, channel, rows));
+                assert_eq!(single_bounces(&finding), Some(single), "{}", law.words);
+                let made = Made::new().with(FURNACES[0], finding);
+                assert_eq!(made.first(), Some(law.cause.name), "{}, {single:?}", law.words);
+            }
+        }
+    }
+
+    #[test]
+    fn how_single_bounces_are_come_by_is_open_where_they_tell_it_otherwise() {
+        let everywhere = law(&integrator::DEPTH_IGNORED, "whatever bounce");
+        assert_eq!(single_bounces(&furnace(everywhere.predict)), None);
+        let twice = |c: &Channel, rows: [u32; 2]| c.sum(rows, |_| 2.0);
+        assert_eq!(single_bounces(&furnace(twice)), None);
+        assert_eq!(single_bounces(&furnace(|c, rows| c.sum(rows, |_| 1.0))), None);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! One cause and all that it explains, or what differs without one, in words.
 
+use super::factor::Factor;
 use super::shared::Shared;
 use super::{Degree, Evidence, Observation};
 use crate::case::{Part, Tier};
@@ -110,23 +111,25 @@ impl Headline {
 
     /// The same with what these failures share, and what passes with the core's own has not.
     pub(super) fn under(mut self, evidence: &Evidence<'_>, own: Components) -> Self {
-        let failing = self.explains.iter().filter_map(|case| evidence.failure_of(case));
+        let failures = || self.explains.iter().filter_map(|case| evidence.failure_of(case));
+        let factor = Factor::of(failures()).filter(|_| self.laws.is_empty());
+        let factor = factor.map(|factor| format!(": {}", factor.in_words()));
         // What passes with the bench's own says nothing; where no component is known, with any of its own.
         let may_fail = |seen: &&Observation<'_>| match own.is_empty() {
             true => seen.with.is_empty(),
             false => !seen.with.intersects(own),
         };
         let passing = evidence.passed().filter(may_fail);
-        let Some(shared) = Shared::of(
-            failing.filter(|seen| seen.is_about_light()),
+        let shared = Shared::of(
+            failures().filter(|seen| seen.is_about_light()),
             passing.filter(|seen| seen.is_about_light()),
-        ) else {
-            return self;
-        };
-        if self.laws.is_empty() {
+        );
+        if let (Some(shared), true) = (&shared, self.laws.is_empty()) {
             let place = shared.place().map(|place| format!(", {place}"));
             self.mistake += &place.unwrap_or_default();
         }
+        self.mistake += &factor.unwrap_or_default();
+        let Some(shared) = shared else { return self };
         self.evidence.insert(self.evidence.len().min(1), shared.in_words());
         self.evidence.truncate(EVIDENCE);
         self

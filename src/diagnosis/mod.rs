@@ -17,6 +17,7 @@ mod differences;
 mod directions;
 mod endings;
 mod evidence;
+mod factor;
 mod generic_position;
 mod headline;
 mod mirrors;
@@ -31,6 +32,8 @@ mod shared;
 mod testing;
 
 pub(crate) use apart::{View, diagnose_apart};
+pub(crate) use bounce_laws::Single;
+pub(crate) use bounces::single_bounces;
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use headline::Headline;
 pub(crate) use rank::Diagnosis;

@@ -7,14 +7,15 @@ use super::plan::{Plan, Trial};
 use super::purse::{Purse, price};
 use super::record::TrialRecord;
 use super::search::{is_gross, without_patience};
-use crate::case::Subject;
+use crate::case::{Role, Subject};
 use crate::checks::Finding;
 use crate::contract::Components;
-use crate::cores::textbook::fault;
-use crate::diagnosis::{Mistake, Planted, Question};
+use crate::cores::textbook::variant::AND;
+use crate::cores::textbook::{different, fault};
+use crate::diagnosis::{Mistake, Planted, Question, Single, single_bounces};
 use crate::stats::{Allowance, Budget};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 /// The core that mistakes are planted in.
 const TEXTBOOK: &str = "textbook";
@@ -57,6 +58,25 @@ pub(crate) fn excluded() -> Vec<Excluded> {
     all.sort_by_key(|mistake| mistake.part);
     all
 }
+
+/// A fault of which bounces count, beside a choice of how single ones are come by.
+struct BesideSums {
+    /// `textbook:NAME` makes it.
+    name: String,
+    fault: &'static fault::Fault,
+    single: Single,
+}
+
+static BESIDE_SUMS: LazyLock<Vec<BesideSums>> = LazyLock::new(|| {
+    let choices =
+        [(Single::ByDifference, different::BY_DIFFERENCE), (Single::Apart, different::APART)];
+    let beside = |(single, choice)| {
+        let of_ranges = fault::all().filter(|fault| fault.is_of_ranges());
+        let name = move |fault: &fault::Fault| format!("{}+{choice}", fault.name);
+        of_ranges.map(move |fault| BesideSums { name: name(fault), fault, single })
+    };
+    choices.into_iter().flat_map(beside).collect()
+});
 
 /// Every fault of the textbook, and what was asked of them before.
 pub(super) struct PlantedFaults<'a> {
@@ -101,13 +121,17 @@ impl<'a> PlantedFaults<'a> {
         records: impl Iterator<Item = &'r TrialRecord> + Clone,
         broken: usize,
     ) -> Self {
-        let mistake = |fault: &'static fault::Fault| Mistake {
-            name: fault.name,
+        let mistake = |name: &'static str, fault: &'static fault::Fault| Mistake {
+            name,
             cause: fault.cause,
             components: fault.components(),
             caught_by: fault.caught_by,
         };
-        let mistakes = fault::all().map(mistake).collect();
+        let alone = fault::all().map(|fault| mistake(fault.name, fault));
+        let single = single(plan, records.clone());
+        let beside_sums = BESIDE_SUMS.iter().filter(|beside| Some(beside.single) == single);
+        let beside_sums = beside_sums.map(|beside| mistake(&beside.name, beside.fault));
+        let mistakes = alone.chain(beside_sums).collect();
         let allowance = Allowance { judges_alone: true, ..bench.allowance };
         let quick = Allowance { budget: Budget::Quick, ..allowance };
         // Asked as a strict run asks, a right core may need longer than a search waits.
@@ -216,6 +240,13 @@ impl<'a> PlantedFaults<'a> {
     }
 }
 
+/// How the core comes by single bounces, if its furnace tells.
+fn single<'r>(plan: &Plan, mut records: impl Iterator<Item = &'r TrialRecord>) -> Option<Single> {
+    let furnace = plan.trials.iter().find(|trial| trial.case.role == Some(Role::Furnace))?;
+    let of_furnace = records.find(|record| record.case == furnace.case.id)?;
+    single_bounces(of_furnace.outcome.finding().filter(|finding| finding.failed())?)
+}
+
 /// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
 fn least<'r>(records: impl Iterator<Item = &'r TrialRecord> + Clone, broken: usize) -> u64 {
     let is_image = |record: &TrialRecord| Subject::of_case(&record.case) == Some(Subject::Image);
@@ -234,8 +265,11 @@ fn without_mistakes((_, case, with, roughly): &Asked) -> Asked {
 }
 
 fn asked(question: &Question<'_>) -> Asked {
-    let names: Vec<_> = question.mistakes.iter().map(|mistake| mistake.name).collect();
-    let core = format!("{TEXTBOOK}:{}", names.join("+"));
+    // Several may be made beside one choice.
+    let words = question.mistakes.iter().flat_map(|mistake| mistake.name.split(AND));
+    let mut seen = BTreeSet::new();
+    let names: Vec<_> = words.filter(|word| seen.insert(*word)).collect();
+    let core = format!("{TEXTBOOK}:{}", names.join(&AND.to_string()));
     (core, question.case.to_owned(), question.with, question.roughly)
 }
 

@@ -3,6 +3,7 @@
 //! Like a fault, a choice replaces steps of the lesson; some of them have to be declared, too.
 
 use super::build::{self, Builder};
+use super::direct::zero_bounce;
 use super::ggx::Microfacets;
 use super::glass::refracted_cosine;
 use super::integrator::{Integrator, Progress, survival_probability};
@@ -14,10 +15,14 @@ use super::vertex::Vertex;
 use super::{area_light, bsdf, integrator, slab, split, vertex};
 use crate::contract::{
     Capabilities, Components, CoreInfo, EmissionSides, Falloff, GlassFresnel, GlassRadiance,
-    Precision, Randomness, Ray, Roulette, Sampler, SmithTerm, Split,
+    IntegratorSettings, Precision, Randomness, Ray, Roulette, Sampler, SmithTerm, Split,
 };
 use crate::scene::{Aabb, Surface};
 use glam::{DVec2, DVec3};
+
+/// Choices of how single bounces are asked for: beside sums, whatever is wrong with those.
+pub(crate) const BY_DIFFERENCE: &str = "bounces-by-difference";
+pub(crate) const APART: &str = "bounces-apart";
 
 /// A core that is right, and not the same.
 #[derive(Debug)]
@@ -87,6 +92,14 @@ different! {
     "roulette-by-luminance": "paths go on by the luminance of their throughput, at most 95 %, after five bounces (Mitsuba)",
         parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_by_luminance;
+    "bounces-by-difference": "later bounces alone are what they add to those before, by the same random numbers",
+        parts [4],
+        light_along = |integrator, ray, random| {
+            beside_sums(integrator, ray, random, added_by_later_bounces)
+        };
+    "bounces-apart": "single bounces are asked of functions of their own",
+        parts [4],
+        light_along = |integrator, ray, random| beside_sums(integrator, ray, random, light_apart);
     "mis-everywhere": "light sampling is combined with BSDF sampling at every surface, by the balance heuristic",
         parts [3, 4] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         combines = |_| true,
@@ -330,6 +343,52 @@ pub(super) fn balance_heuristic(own: f64, other: f64) -> f64 {
 /// Linear sRGB.
 fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// Sums of bounces from the first on, and what is alone by other ways: emission and single scattering have functions of
+/// their own in courses, and what sums leave out is taken off them.
+fn beside_sums(
+    integrator: &Integrator<'_>,
+    ray: &Ray,
+    random: &mut Random<'_>,
+    later: fn(&Integrator<'_>, &Ray, &mut Random<'_>) -> DVec3,
+) -> DVec3 {
+    let bounces = &integrator.settings.bounces;
+    let sum = |random: &mut Random<'_>| light_up_to(integrator, *bounces.end(), ray, random);
+    match (*bounces.start(), *bounces.end()) {
+        (0, 0) | (1, 1) => light_apart(integrator, ray, random),
+        (0, _) => integrator::light_along(integrator, ray, random),
+        (1, _) => sum(random) - zero_bounce(integrator.world, &integrator.world.look(ray)),
+        _ => later(integrator, ray, random),
+    }
+}
+
+/// As the lesson has it, whatever else is made of sums.
+fn light_apart(integrator: &Integrator<'_>, ray: &Ray, random: &mut Random<'_>) -> DVec3 {
+    let steps = integrator.steps().taking(Components::PATH, &LESSON);
+    integrator.by(&steps).radiance(ray, random)
+}
+
+/// Equal random numbers make equal paths.
+fn added_by_later_bounces(
+    integrator: &Integrator<'_>,
+    ray: &Ray,
+    random: &mut Random<'_>,
+) -> DVec3 {
+    let bounces = &integrator.settings.bounces;
+    let before = light_up_to(integrator, bounces.start() - 1, ray, &mut random.clone());
+    light_up_to(integrator, *bounces.end(), ray, random) - before
+}
+
+fn light_up_to(
+    integrator: &Integrator<'_>,
+    last: u32,
+    ray: &Ray,
+    random: &mut Random<'_>,
+) -> DVec3 {
+    let settings = IntegratorSettings { bounces: 0..=last, ..integrator.settings.clone() };
+    let up_to = Integrator::new(integrator.world, &settings);
+    integrator::light_along(&up_to, ray, random)
 }
 
 /// Dim light is kept with a probability, and then as bright as the threshold.

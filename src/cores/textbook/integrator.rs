@@ -48,10 +48,19 @@ impl<'a> Integrator<'a> {
 
     /// One estimate of the radiance that arrives along `ray`.
     pub(crate) fn radiance(&self, ray: &Ray, random: &mut Random<'_>) -> DVec3 {
-        let view = self.world.look(ray);
-        let shows_emission = self.wants(0) && self.steps.shows_emission(&self.bounces());
-        let seen = if shows_emission { zero_bounce(self.world, &view) } else { DVec3::ZERO };
-        seen + self.at_least_one_bounce(view, random)
+        self.steps.light_along(self, ray, random)
+    }
+
+    /// The same with other steps.
+    pub(crate) fn by<'b>(&self, steps: &'b Steps) -> Integrator<'b>
+    where
+        'a: 'b,
+    {
+        Integrator { steps, ..*self }
+    }
+
+    pub(crate) const fn steps(&self) -> &'a Steps {
+        self.steps
     }
 
     /// The light of bounces 1 and up. A loop in place of the course's recursion: a path between two
@@ -118,6 +127,19 @@ impl<'a> Integrator<'a> {
         let weight = weight / self.steps.survival_divisor(roulette, survival);
         (!is_black).then_some(Continuation { ray, weight })
     }
+}
+
+/// The light of the bounces that are asked for.
+pub(crate) fn light_along(
+    integrator: &Integrator<'_>,
+    ray: &Ray,
+    random: &mut Random<'_>,
+) -> DVec3 {
+    let Integrator { world, steps, .. } = *integrator;
+    let view = world.look(ray);
+    let shows_emission = integrator.wants(0) && steps.shows_emission(&integrator.bounces());
+    let seen = if shows_emission { zero_bounce(world, &view) } else { DVec3::ZERO };
+    seen + integrator.at_least_one_bounce(view, random)
 }
 
 /// The first bounce that is asked for: 0 where they are accumulated, the last one where it is isolated.

@@ -243,6 +243,7 @@ steps! {
     }
     // Part 4: bounces.
     Components::PATH => {
+        integrator::light_along(integrator: &Integrator<'_>, ray: &Ray, random: &mut Random<'_>) -> DVec3;
         integrator::first_bounce(bounces: &RangeInclusive<u32>) -> u32;
         integrator::last_bounce(bounces: &RangeInclusive<u32>) -> u32;
         integrator::counts(bounces: &RangeInclusive<u32>, bounce: u32) -> bool;

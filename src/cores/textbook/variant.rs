@@ -6,7 +6,7 @@ use super::{Textbook, fault, single};
 use crate::contract::{Conventions, Core, CoreInfo, Precision};
 
 /// What joins the names of changes that are on together.
-const AND: char = '+';
+pub(crate) const AND: char = '+';
 
 /// Why there is no copy with these changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

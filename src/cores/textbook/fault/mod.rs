@@ -42,6 +42,14 @@ impl Fault {
     pub(crate) fn components(&self) -> Components {
         self.steps.components()
     }
+
+    /// Whether it changes which bounces count, so that what comes of single bounces depends on how a core asks for them.
+    pub(crate) const fn is_of_ranges(&self) -> bool {
+        let Steps { first_bounce, last_bounce, counts, .. } = &self.steps;
+        let Steps { shows_emission, path_meets_light, .. } = &self.steps;
+        let of_sums = first_bounce.is_some() || last_bounce.is_some() || counts.is_some();
+        of_sums || shows_emission.is_some() || path_meets_light.is_some()
+    }
 }
 
 /// A table of faults: `"name": "what the student wrote", fails CASE, told CAUSE, STEP = what stands in its place;`.

@@ -1,5 +1,5 @@
 //! The factor by which most failures of light are off: where there is no cause yet, it says by how much.
-//! `light is 0.25 of what it should be in 28 of 36 failures`
+//! `light is 0.25 times what it should be in 28 of 36 failures`
 
 use super::Observation;
 use super::readings::Reading;
@@ -51,7 +51,7 @@ impl Factor {
             true => format!("all {failing} failures"),
             false => format!("{fitting} of {failing} failures"),
         };
-        format!("light is {factor} of what it should be in {failures}")
+        format!("light is {factor} times what it should be in {failures}")
     }
 }
 
@@ -84,9 +84,12 @@ mod tests {
     #[test]
     fn what_most_failures_agree_on_is_told() {
         let told = factor(&[0.25, 0.2503, 0.2498, 0.5, 0.29]);
-        assert_eq!(told.as_deref(), Some("light is 0.25 of what it should be in 3 of 5 failures"));
+        assert_eq!(
+            told.as_deref(),
+            Some("light is 0.25 times what it should be in 3 of 5 failures")
+        );
         let told = factor(&[1.5, 1.5, 1.5]);
-        assert_eq!(told.as_deref(), Some("light is 1.5 of what it should be in all 3 failures"));
+        assert_eq!(told.as_deref(), Some("light is 1.5 times what it should be in all 3 failures"));
     }
 
     #[test]

@@ -64,8 +64,11 @@ impl Judged {
                 Some(format!("{}: the integral of its pdf is not known well enough", self.name))
             }
             _ => {
-                let missing = self.report.samples_missing.unwrap_or(0);
-                Some(format!("{}: {missing} more samples are needed", self.name))
+                let unseen = percent(self.report.resolution);
+                let more =
+                    self.report.samples_missing.map(|n| format!(" without {n} samples more"));
+                let more = more.unwrap_or_default();
+                Some(format!("{}: an error of its pdf below {unseen} goes unseen{more}", self.name))
             }
         }
     }

@@ -14,7 +14,7 @@ const SOURCES: [(&str, &str); 8] = [
     ("pathtracer.cpp", "#include \"pathtracer.h\"\n"),
     ("pathtracer_old.cpp", "#include \"pathtracer.h\"\n"),
     ("bsdf.cpp", "#include \"bsdf.h\"\n"),
-    ("advanced_bsdf.cpp", "#include \"bsdf.h\"\n#include \"colours.cpp\"\n"),
+    ("advanced-bsdf.cpp", "#include \"bsdf.h\"\n#include \"colours.cpp\"\n"),
     ("colours.cpp", "#include \"bsdf.h\"\n"),
 ];
 
@@ -23,7 +23,7 @@ const OWN_BUILD: &str = "add_executable(pathtracer
     src/pathtracer/pathtracer.cpp
     # src/pathtracer/pathtracer_old.cpp
     ${PROJECT_SOURCE_DIR}/src/pathtracer/bsdf.cpp
-    src/pathtracer/advanced_bsdf.cpp)\n";
+    src/pathtracer/advanced-bsdf.cpp)\n";
 
 /// How many files are compiled of these sources; nothing where there is no CMake.
 fn compiled(own_build: Option<&str>) -> Option<u32> {

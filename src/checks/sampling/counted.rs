@@ -7,6 +7,7 @@ use crate::checks::Measure;
 use crate::checks::phrase::{figure, percent};
 use crate::checks::series::{OneLine, Series, SphereCounts};
 use crate::stats::{CountDoubt, CountReport, SphereCells, Verdict, chi_square_upper};
+use crate::text::number::count;
 use std::f64::consts::FRAC_2_PI;
 
 /// A law is named if the rings fit it at this level.
@@ -65,8 +66,9 @@ impl Judged {
             }
             _ => {
                 let unseen = percent(self.report.resolution);
+                let missing = self.report.samples_missing;
                 let more =
-                    self.report.samples_missing.map(|n| format!(" without {n} samples more"));
+                    missing.map(|n| format!(" without {}", count(n as usize, "more sample")));
                 let more = more.unwrap_or_default();
                 Some(format!("{}: an error of its pdf below {unseen} goes unseen{more}", self.name))
             }

@@ -294,7 +294,7 @@ fn report(stages: Escalation<CountStage>, effort: &Effort, drawn: Drawn) -> Coun
 
 fn samples_missing(first: &CountStage, doubt: Option<CountDoubt>, detects: f64) -> Option<u64> {
     let needed = needed_samples(first.freedom, detects) as u64;
-    // Where there are none, samples that depend on each other hide the error.
+    // Where none are, samples that depend on each other hide the error.
     let missing = needed.saturating_sub(first.samples);
     (doubt == Some(CountDoubt::TooFewSamples) && missing > 0).then_some(missing)
 }

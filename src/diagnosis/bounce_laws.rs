@@ -68,9 +68,9 @@ pub(crate) fn indirect(bounce: u32) -> i32 {
 /// cos³ θ/π³ over the hemisphere.
 const TIMES_PDF: f64 = 1.0 / (2.0 * PI * PI);
 
-/// How single bounces are come by where sums are wrong.
+/// How a core comes by isolated bounces, where its sums are wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Single {
+pub(crate) enum Isolation {
     /// As a sum of one bounce.
     Counted,
     /// What they add to the sum before; emission and single scattering have functions of their own.
@@ -79,7 +79,7 @@ pub(crate) enum Single {
     Apart,
 }
 
-impl Single {
+impl Isolation {
     pub(super) const ALL: [Self; 3] = [Self::Counted, Self::ByDifference, Self::Apart];
 
     /// The sum of these bounces as a mistake makes it.

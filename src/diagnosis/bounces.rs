@@ -4,7 +4,7 @@
 //! case, channel by channel. Where no law fits and indirect light is off by one grey factor a bounce, the factor is
 //! fitted and told with its interval.
 
-use super::bounce_laws::{Channel, LAWS, Law, Single, indirect};
+use super::bounce_laws::{Channel, Isolation, LAWS, Law, indirect};
 use super::evidence::measure;
 use super::readings::{Reading, channels, fails_as};
 use super::{Degree, Evidence, RuledOut, Suspicion};
@@ -50,9 +50,9 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
     fitting.iter().map(told).collect()
 }
 
-/// How a core comes by single bounces, as a furnace tells where sums are wrong.
-pub(crate) fn single_bounces(finding: &Finding) -> Option<Single> {
-    Furnace::of(finding)?.single()
+/// How a core comes by isolated bounces, as a furnace tells where sums are wrong.
+pub(crate) fn isolation(finding: &Finding) -> Option<Isolation> {
+    Furnace::of(finding)?.isolation()
 }
 
 fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
@@ -66,6 +66,16 @@ fn direct_light(evidence: &Evidence<'_>, law: &Law) -> Vec<String> {
 pub(crate) struct Row {
     pub(crate) bounces: [u32; 2],
     pub(crate) readings: [Option<Reading>; 3],
+}
+
+impl Row {
+    fn is_isolated(&self) -> bool {
+        self.bounces[0] == self.bounces[1]
+    }
+
+    fn is_right(&self) -> bool {
+        self.readings.iter().flatten().all(|reading| reading.admits(1.0))
+    }
 }
 
 struct Furnace {
@@ -90,10 +100,10 @@ impl Furnace {
         Some(Self { channels, rows: rows(finding) })
     }
 
-    /// Whether every number is as the law has it, however single bounces are come by.
+    /// Whether every number is as the law has it, however isolated bounces are come by.
     fn follows(&self, law: &Law) -> bool {
-        Single::ALL.into_iter().any(|single| {
-            let predict = |channel: &Channel, bounces| single.read(law, channel, bounces);
+        Isolation::ALL.into_iter().any(|isolation| {
+            let predict = |channel: &Channel, bounces| isolation.read(law, channel, bounces);
             self.rows.iter().all(|row| self.row_admits(row, &predict))
         })
     }
@@ -105,59 +115,60 @@ impl Furnace {
         })
     }
 
-    /// How the core comes by single bounces, if its sums are wrong and nothing that it gives alone tells of it.
-    fn single(&self) -> Option<Single> {
-        let is_right = |row: &Row| row.readings.iter().flatten().all(|one| one.admits(1.0));
-        let [mut alone, mut sums] = [Vec::new(), Vec::new()];
-        for row in &self.rows {
-            if row.bounces[0] == row.bounces[1] { &mut alone } else { &mut sums }.push(row);
+    /// How the core comes by isolated bounces, if its sums are wrong, and emission and direct light alone are right.
+    fn isolation(&self) -> Option<Isolation> {
+        let (isolated, sums): (Vec<&Row>, Vec<&Row>) =
+            self.rows.iter().partition(|row| row.is_isolated());
+        let (direct, later): (Vec<&Row>, Vec<&Row>) =
+            isolated.into_iter().partition(|row| row.bounces[0] < 2);
+        let are_right = |rows: &[&Row]| rows.iter().all(|row| row.is_right());
+        if !are_right(&direct) || are_right(&sums) || later.is_empty() {
+            return None;
         }
-        let (of_course, later): (Vec<&Row>, Vec<&Row>) =
-            alone.into_iter().partition(|row| row.bounces[0] < 2);
-        let are_wrong = !sums.iter().all(|row| is_right(row));
-        match of_course.iter().all(|row| is_right(row)) && are_wrong && !later.is_empty() {
-            false => None,
-            true if later.iter().all(|row| is_right(row)) => Some(Single::Apart),
-            true => self.adds_up(&sums, &later).then_some(Single::ByDifference),
+        match are_right(&later) {
+            true => Some(Isolation::Apart),
+            false => self.adds_up(&sums, &later).then_some(Isolation::ByDifference),
         }
     }
 
-    /// Whether single bounces are what separates two sums, wherever all between the two are known.
+    /// Whether isolated bounces are what separates two sums, wherever all between the two are known.
     fn adds_up(&self, sums: &[&Row], later: &[&Row]) -> bool {
-        let between = |less: &Row, more: &Row| {
-            let bounces = less.bounces[1] + 1..=more.bounces[1];
-            let found = bounces.map(|k| later.iter().find(|row| row.bounces[0] == k).copied());
-            found.collect::<Option<Vec<&Row>>>().filter(|between| !between.is_empty())
+        let pairs = sums.iter().flat_map(|less| sums.iter().map(move |more| [*less, *more]));
+        let pairs = pairs.filter(|[less, more]| {
+            less.bounces[0] == more.bounces[0] && less.bounces[1] < more.bounces[1]
+        });
+        let between = |[less, more]: [&Row; 2]| {
+            let mut bounces = less.bounces[1] + 1..=more.bounces[1];
+            let all = bounces.all(|k| later.iter().any(|row| row.bounces[0] == k));
+            let within =
+                |row: &&Row| less.bounces[1] < row.bounces[0] && row.bounces[0] <= more.bounces[1];
+            all.then(|| later.iter().copied().filter(within).collect::<Vec<_>>())
         };
-        let pairs = sums.iter().flat_map(|less| sums.iter().map(move |more| (*less, *more)));
-        let mut known = pairs
-            .filter_map(|(less, more)| Some((less, more, between(less, more)?)))
-            .flat_map(|(less, more, between)| {
-                (0..3).map(move |channel| (less, more, between.clone(), channel))
+        let mut known = pairs.filter_map(|pair| Some((pair, between(pair)?))).peekable();
+        known.peek().is_some()
+            && known.all(|(pair, between)| {
+                (0..self.channels.len()).all(|channel| self.separate(channel, pair, &between))
             })
-            .peekable();
-        let light = |row: &Row, channel: usize| {
+    }
+
+    /// Whether these rows may be what one sum has more than the other.
+    fn separate(&self, channel: usize, [less, more]: [&Row; 2], between: &[&Row]) -> bool {
+        let light = |row: &Row| {
             let right = self.channels[channel].sum(row.bounces, |_| 1.0);
             row.readings[channel].map(|reading| reading.interval.map(|ratio| ratio * right))
         };
-        known.peek().is_some()
-            && known.all(|(less, more, between, channel)| {
-                let (Some(less), Some(more)) = (light(less, channel), light(more, channel)) else {
-                    return false;
-                };
-                let single = between.iter().map(|row| light(row, channel));
-                let Some(single) = single.collect::<Option<Vec<_>>>() else { return false };
-                let [low, high] = [0, 1].map(|end| single.iter().map(|light| light[end]).sum());
-                more[0] - less[1] <= high && low <= more[1] - less[0]
-            })
+        let isolated: Option<Vec<_>> = between.iter().map(|row| light(row)).collect();
+        let (Some(less), Some(more), Some(isolated)) = (light(less), light(more), isolated) else {
+            return false;
+        };
+        let [low, high] = [0, 1].map(|end| isolated.iter().map(|light| light[end]).sum::<f64>());
+        more[0] - less[1] <= high && low <= more[1] - less[0]
     }
 
     /// Isolated bounces beside what they should be; where these are right, their sums.
     fn table(&self) -> String {
-        let is_isolated = |row: &&Row| row.bounces[0] == row.bounces[1];
-        let is_right = |row: &Row| row.readings.iter().flatten().all(|one| one.admits(1.0));
-        let adds_up = self.rows.iter().filter(is_isolated).all(is_right);
-        let rows = self.rows.iter().filter(|row| is_isolated(row) != adds_up);
+        let adds_up = self.rows.iter().filter(|row| row.is_isolated()).all(Row::is_right);
+        let rows = self.rows.iter().filter(|row| row.is_isolated() != adds_up);
         let cells: Vec<_> = rows
             .filter_map(|row| {
                 let ratios: Vec<_> =
@@ -172,7 +183,8 @@ impl Furnace {
 
     /// The first row at which each other law of the same family fails.
     fn ruled_out(&self, law: &Law) -> Vec<RuledOut> {
-        let rivals = LAWS.iter().filter(|rival| rival.cause.name != law.cause.name);
+        let is_rival = |rival: &&Law| rival.cause.name != law.cause.name && !self.follows(rival);
+        let rivals = LAWS.iter().filter(is_rival);
         let refuted = rivals.filter_map(|rival| {
             let row = self.rows.iter().find(|row| !self.row_admits(row, &rival.predict))?;
             let (channel, reading) =
@@ -190,7 +202,7 @@ impl Furnace {
     fn constant_factor(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
         let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
         let mut most = 0;
-        for row in self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]) {
+        for row in self.rows.iter().filter(|row| row.is_isolated()) {
             let bounce = row.bounces[0];
             for reading in row.readings.iter().flatten() {
                 if bounce < 2 {
@@ -216,7 +228,7 @@ impl Furnace {
 
     /// One grey factor for all indirect light, if all isolated bounces agree on it and it is not 1.
     fn factor_once(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
-        let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        let isolated = || self.rows.iter().filter(|row| row.is_isolated());
         let of = |bounces: std::ops::RangeInclusive<u32>| {
             isolated().filter(move |row| bounces.contains(&row.bounces[0]))
         };
@@ -246,7 +258,7 @@ impl Furnace {
     /// Direct light is right, and indirect light is off by other grey factors at each bounce from the first on: it does
     /// not come from where it should.
     fn lost_ways(&self, case: &str) -> Option<Suspicion> {
-        let isolated = || self.rows.iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        let isolated = || self.rows.iter().filter(|row| row.is_isolated());
         let mut direct = isolated().filter(|row| row.bounces[0] == 1).peekable();
         let right = direct.peek().is_some()
             && direct.all(|row| row.readings.iter().flatten().all(|r| r.admits(1.0)));
@@ -308,7 +320,7 @@ fn fitting_too(
         row.readings.iter().flatten().all(fits)
     };
     let fits = |finding: &Finding| {
-        let isolated = || rows(finding).into_iter().filter(|row| row.bounces[0] == row.bounces[1]);
+        let isolated = || rows(finding).into_iter().filter(|row| row.is_isolated());
         isolated().any(|row| row.bounces[0] > 1) && isolated().all(|row| predicted(&row))
     };
     let others =
@@ -397,29 +409,29 @@ mod tests {
     }
 
     #[test]
-    fn a_law_of_sums_is_told_however_single_bounces_are_come_by() {
+    fn a_law_of_sums_is_told_however_isolated_bounces_are_come_by() {
         let laws = [
             law(&integrator::DEPTH_IGNORED, "of two bounces and more"),
             law(&integrator::ONE_BOUNCE_LONG, "every sum holds one bounce more"),
             law(&integrator::ONE_BOUNCE_SHORT, "from the second on"),
         ];
         for law in laws {
-            for single in [Single::ByDifference, Single::Apart] {
-                let finding = furnace(|channel, rows| single.read(law, channel, rows));
-                assert_eq!(single_bounces(&finding), Some(single), "{}", law.words);
+            for way in [Isolation::ByDifference, Isolation::Apart] {
+                let finding = furnace(|channel, rows| way.read(law, channel, rows));
+                assert_eq!(isolation(&finding), Some(way), "{}", law.words);
                 let made = Made::new().with(FURNACES[0], finding);
-                assert_eq!(made.first(), Some(law.cause.name), "{}, {single:?}", law.words);
+                assert_eq!(made.first(), Some(law.cause.name), "{}, {way:?}", law.words);
             }
         }
     }
 
     #[test]
-    fn how_single_bounces_are_come_by_is_open_where_they_tell_it_otherwise() {
+    fn how_isolated_bounces_are_come_by_is_open_where_they_tell_it_otherwise() {
         let everywhere = law(&integrator::DEPTH_IGNORED, "whatever bounce");
-        assert_eq!(single_bounces(&furnace(everywhere.predict)), None);
+        assert_eq!(isolation(&furnace(everywhere.predict)), None);
         let twice = |c: &Channel, rows: [u32; 2]| c.sum(rows, |_| 2.0);
-        assert_eq!(single_bounces(&furnace(twice)), None);
-        assert_eq!(single_bounces(&furnace(|c, rows| c.sum(rows, |_| 1.0))), None);
+        assert_eq!(isolation(&furnace(twice)), None);
+        assert_eq!(isolation(&furnace(|c, rows| c.sum(rows, |_| 1.0))), None);
     }
 
     #[test]

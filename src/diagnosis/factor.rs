@@ -36,7 +36,6 @@ impl Factor {
         };
         // What most have in common begins where one of them does.
         let begins = known.iter().map(|[low, _]| *low).max_by_key(|low| at(*low).count())?;
-        let common = |[low, high]: [f64; 2], [from, to]: [f64; 2]| [low.max(from), high.min(to)];
         let interval = at(begins).reduce(common)?;
         let (fitting, failing) = (at(begins).count(), all.len());
         let is_known = interval[1] - interval[0] <= UNCERTAIN * interval[0];
@@ -55,10 +54,14 @@ impl Factor {
     }
 }
 
+/// What two intervals have in common; the ends are exchanged where that is nothing.
+fn common([low, high]: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
+    [low.max(from), high.min(to)]
+}
+
 /// What all that failed of one case agrees on; none where it is dark.
 fn of_one(finding: &Finding) -> Option<[f64; 2]> {
     let wrong = finding.failed_measures().map(|measure| Some(Reading::of(measure)?.interval));
-    let common = |[low, high]: [f64; 2], [from, to]: [f64; 2]| [low.max(from), high.min(to)];
     let [low, high] = wrong.collect::<Option<Vec<_>>>()?.into_iter().reduce(common)?;
     let is_one = low <= 1.0 && 1.0 <= high;
     (0.0 < low && low <= high && !is_one).then_some([low, high])

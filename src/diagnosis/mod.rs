@@ -32,8 +32,8 @@ mod shared;
 mod testing;
 
 pub(crate) use apart::{View, diagnose_apart};
-pub(crate) use bounce_laws::Single;
-pub(crate) use bounces::single_bounces;
+pub(crate) use bounce_laws::Isolation;
+pub(crate) use bounces::isolation;
 pub(crate) use evidence::{Ending, Evidence, Observation, Standing};
 pub(crate) use headline::Headline;
 pub(crate) use rank::Diagnosis;

@@ -12,7 +12,7 @@ use crate::checks::Finding;
 use crate::contract::Components;
 use crate::cores::textbook::variant::AND;
 use crate::cores::textbook::{different, fault};
-use crate::diagnosis::{Mistake, Planted, Question, Single, single_bounces};
+use crate::diagnosis::{Isolation, Mistake, Planted, Question, isolation};
 use crate::stats::{Allowance, Budget};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
@@ -59,21 +59,21 @@ pub(crate) fn excluded() -> Vec<Excluded> {
     all
 }
 
-/// A fault of which bounces count, beside a choice of how single ones are come by.
+/// A fault of which bounces count, beside a choice of how isolated ones are come by.
 struct BesideSums {
     /// `textbook:NAME` makes it.
     name: String,
     fault: &'static fault::Fault,
-    single: Single,
+    isolation: Isolation,
 }
 
 static BESIDE_SUMS: LazyLock<Vec<BesideSums>> = LazyLock::new(|| {
     let choices =
-        [(Single::ByDifference, different::BY_DIFFERENCE), (Single::Apart, different::APART)];
-    let beside = |(single, choice)| {
+        [(Isolation::ByDifference, different::BY_DIFFERENCE), (Isolation::Apart, different::APART)];
+    let beside = |(isolation, choice)| {
         let of_ranges = fault::all().filter(|fault| fault.is_of_ranges());
-        let name = move |fault: &fault::Fault| format!("{}+{choice}", fault.name);
-        of_ranges.map(move |fault| BesideSums { name: name(fault), fault, single })
+        let name = move |fault: &fault::Fault| format!("{}{AND}{choice}", fault.name);
+        of_ranges.map(move |fault| BesideSums { name: name(fault), fault, isolation })
     };
     choices.into_iter().flat_map(beside).collect()
 });
@@ -128,8 +128,8 @@ impl<'a> PlantedFaults<'a> {
             caught_by: fault.caught_by,
         };
         let alone = fault::all().map(|fault| mistake(fault.name, fault));
-        let single = single(plan, records.clone());
-        let beside_sums = BESIDE_SUMS.iter().filter(|beside| Some(beside.single) == single);
+        let isolation = isolation_of(plan, records.clone());
+        let beside_sums = BESIDE_SUMS.iter().filter(|beside| Some(beside.isolation) == isolation);
         let beside_sums = beside_sums.map(|beside| mistake(&beside.name, beside.fault));
         let mistakes = alone.chain(beside_sums).collect();
         let allowance = Allowance { judges_alone: true, ..bench.allowance };
@@ -240,11 +240,14 @@ impl<'a> PlantedFaults<'a> {
     }
 }
 
-/// How the core comes by single bounces, if its furnace tells.
-fn single<'r>(plan: &Plan, mut records: impl Iterator<Item = &'r TrialRecord>) -> Option<Single> {
+/// How the core comes by isolated bounces, if its furnace tells.
+fn isolation_of<'r>(
+    plan: &Plan,
+    mut records: impl Iterator<Item = &'r TrialRecord>,
+) -> Option<Isolation> {
     let furnace = plan.trials.iter().find(|trial| trial.case.role == Some(Role::Furnace))?;
     let of_furnace = records.find(|record| record.case == furnace.case.id)?;
-    single_bounces(of_furnace.outcome.finding().filter(|finding| finding.failed())?)
+    isolation(of_furnace.outcome.finding().filter(|finding| finding.failed())?)
 }
 
 /// Seconds of the textbook core that planted mistakes may always be asked for a core with these trials.
@@ -304,6 +307,7 @@ impl Planted for PlantedFaults<'_> {
 mod tests {
     use super::*;
     use crate::case;
+    use crate::cores::textbook::variant;
     use crate::project::Project;
     use crate::run::Request;
     use crate::run::purse::{A_SECOND, LONGEST_TRIAL};
@@ -317,6 +321,13 @@ mod tests {
         let (cores, filters) = (vec!["textbook".parse().unwrap()], vec![case.to_owned()]);
         let request = Request { cores, filters, budget: Budget::Quick, ..Request::default() };
         Plan::new(project, request, &cases).unwrap()
+    }
+
+    #[test]
+    fn there_is_a_core_for_every_mistake_beside_sums() {
+        for BesideSums { name, .. } in BESIDE_SUMS.iter() {
+            assert!(variant::core(name).is_ok(), "{name}");
+        }
     }
 
     #[test]

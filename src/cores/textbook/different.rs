@@ -20,7 +20,7 @@ use crate::contract::{
 use crate::scene::{Aabb, Surface};
 use glam::{DVec2, DVec3};
 
-/// Choices of how single bounces are asked for: beside sums, whatever is wrong with those.
+/// How isolated bounces are come by, whatever is wrong with sums.
 pub(crate) const BY_DIFFERENCE: &str = "bounces-by-difference";
 pub(crate) const APART: &str = "bounces-apart";
 
@@ -92,12 +92,12 @@ different! {
     "roulette-by-luminance": "paths go on by the luminance of their throughput, at most 95 %, after five bounces (Mitsuba)",
         parts [4, 5] declares |info| info.capabilities -= Capabilities::PLAIN_ESTIMATORS,
         survival_probability = survival_by_luminance;
-    "bounces-by-difference": "later bounces alone are what they add to those before, by the same random numbers",
+    "bounces-by-difference": "isolated bounces are what they add to the sum of those before, by the same random numbers",
         parts [4],
         light_along = |integrator, ray, random| {
             beside_sums(integrator, ray, random, added_by_later_bounces)
         };
-    "bounces-apart": "single bounces are asked of functions of their own",
+    "bounces-apart": "isolated bounces are asked of functions of their own",
         parts [4],
         light_along = |integrator, ray, random| beside_sums(integrator, ray, random, light_apart);
     "mis-everywhere": "light sampling is combined with BSDF sampling at every surface, by the balance heuristic",
@@ -345,8 +345,8 @@ fn luminance(rgb: DVec3) -> f64 {
     rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
-/// Sums of bounces from the first on, and what is alone by other ways: emission and single scattering have functions of
-/// their own in courses, and what sums leave out is taken off them.
+/// Sums of bounces from the first on, and isolated ones in other ways: emission and direct light have functions of their
+/// own in courses, and what sums leave out is taken off them. A maximum depth is asked of the sum.
 fn beside_sums(
     integrator: &Integrator<'_>,
     ray: &Ray,
@@ -356,6 +356,7 @@ fn beside_sums(
     let bounces = &integrator.settings.bounces;
     let sum = |random: &mut Random<'_>| light_up_to(integrator, *bounces.end(), ray, random);
     match (*bounces.start(), *bounces.end()) {
+        _ if integrator.settings.by_depth => integrator::light_along(integrator, ray, random),
         (0, 0) | (1, 1) => light_apart(integrator, ray, random),
         (0, _) => integrator::light_along(integrator, ray, random),
         (1, _) => sum(random) - zero_bounce(integrator.world, &integrator.world.look(ray)),

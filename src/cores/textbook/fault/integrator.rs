@@ -29,7 +29,7 @@ faults! { part 4;
             0 => 0,
             last => last.max(DEPTH_IGNORED),
         };
-    "depth-not-counted": "the depth of a ray is never counted down: of two bounces and more there are all",
+    "depth-not-counted": "the depth of a ray is never counted down: a limit of two bounces or more is none (48 here)",
         fails FURNACE, told integrator::DEPTH_IGNORED,
         last_bounce = |bounces| match *bounces.end() {
             last @ (0 | 1) => last,

@@ -43,7 +43,7 @@ impl Fault {
         self.steps.components()
     }
 
-    /// Whether it changes which bounces count, so that what comes of single bounces depends on how a core asks for them.
+    /// Whether it changes which bounces count, so that what comes of isolated bounces depends on how a core comes by them.
     pub(crate) const fn is_of_ranges(&self) -> bool {
         let Steps { first_bounce, last_bounce, counts, .. } = &self.steps;
         let Steps { shows_emission, path_meets_light, .. } = &self.steps;

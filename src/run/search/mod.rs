@@ -176,23 +176,27 @@ struct Mending {
 
 impl Found {
     /// Cases that there was no time to halve, tried with what was found for others: each belongs to the highest component
-    /// that it needs. Answers those that need something else.
-    fn try_on(&mut self, cases: &[usize], try_cases: Try<'_>) -> Vec<usize> {
+    /// that it needs. Answers those that need something else, and those that something lower mends, too.
+    fn try_on(&mut self, order: &[Components], cases: &[usize], try_cases: Try<'_>) -> Vec<usize> {
         self.set.sort_by_key(|part| part.component.bits());
-        let order: Vec<_> = self.set.iter().map(|part| part.component).collect();
-        let Tried { passing, failing } = try_cases(order.iter().copied().collect(), cases);
-        if order.is_empty() {
+        let set: Vec<_> = self.set.iter().map(|part| part.component).collect();
+        let Tried { passing, failing: mut others } =
+            try_cases(set.iter().copied().collect(), cases);
+        if set.is_empty() {
             // What passes with nothing of the bench fails only at times, and needs nothing of it.
-            return failing;
+            return others;
         }
         let mut highest = Vec::new();
-        halve(&order, 0..order.len(), passing, try_cases, &mut highest);
-        for (place, cases) in highest {
+        halve(&set, 0..set.len(), passing, try_cases, &mut highest);
+        for (place, mut cases) in highest {
             let part = &mut self.set[place];
+            let lower = mended_by(below(order, part.component), &cases, try_cases);
+            cases.retain(|case| !lower.contains(case));
             part.alone.extend(cases.iter().filter(|_| place == 0));
             part.together.extend(cases);
+            others.extend(lower);
         }
-        failing
+        others
     }
 
     /// Takes in what was found for others.
@@ -285,14 +289,13 @@ fn smallest(takes: Components, failures: &Failures<'_>, try_cases: Try<'_>) -> F
     for (place, cases) in lowest {
         let component = order[place];
         let Tried { passing: alone, failing: with_others } = try_cases(component, &cases);
-        let below = order[..place].iter().copied().collect();
-        beside |= needed(below, component, &with_others, try_cases);
+        beside |= needed(below(&order, component), component, &with_others, try_cases);
         found.push(Needed { component, alone, with_others });
     }
     let found = without_needless(found, try_cases);
     let set = beside | found.iter().map(|of| of.component).collect();
     let mut found = Found { set: together(set, &found, try_cases), unmended };
-    let others = found.try_on(&late, try_cases);
+    let others = found.try_on(&order, &late, try_cases);
     if !others.is_empty() {
         found.absorb(smallest(takes, &failures.only(others), try_cases));
     }
@@ -348,22 +351,36 @@ fn of_what_they_ask(
     try_cases: Try<'_>,
     found: &mut Vec<Needed>,
 ) -> Vec<usize> {
-    for (place, component) in order.iter().copied().enumerate() {
+    for component in order.iter().copied() {
         let asking: Vec<_> =
             cases.iter().copied().filter(|case| asks(*case).contains(component)).collect();
-        let (first, others) = asking.split_at(asking.len().min(FEW));
-        let mut alone = try_cases(component, first).passing;
-        if !alone.is_empty() {
-            alone.extend(try_cases(component, others).passing);
-        }
-        let below = order[..place].iter().copied().collect();
-        let alone = if place == 0 { alone } else { try_cases(below, &alone).failing };
+        let alone = mended_by(component, &asking, try_cases);
+        let below = below(order, component);
+        let alone = if below.is_empty() { alone } else { try_cases(below, &alone).failing };
         cases.retain(|case| !alone.contains(case));
         if !alone.is_empty() {
             found.push(Needed { component, alone, with_others: Vec::new() });
         }
     }
     cases
+}
+
+/// Those of `cases` that pass with these components. Where none of the first few does, the others are not tried.
+fn mended_by(with: Components, cases: &[usize], try_cases: Try<'_>) -> Vec<usize> {
+    if with.is_empty() {
+        return Vec::new();
+    }
+    let (first, others) = cases.split_at(cases.len().min(FEW));
+    let mut mended = try_cases(with, first).passing;
+    if !mended.is_empty() {
+        mended.extend(try_cases(with, others).passing);
+    }
+    mended
+}
+
+/// Those that come before one.
+fn below(order: &[Components], one: Components) -> Components {
+    order.iter().copied().take_while(|other| *other != one).collect()
 }
 
 /// The place of the lowest component that each of `cases` needs, with everything below it taken. It lies in `range`:
@@ -502,6 +519,24 @@ mod tests {
         assert_eq!(of(PATH).map(|part| &part.together[..]), Some(&[1, 3, 4][..]));
         let of_bsdf = of(BSDF).map(|part| &part.together[..]);
         assert_eq!(of_bsdf, Some(&[5][..]), "what else it needs is searched for");
+    }
+
+    #[test]
+    fn what_something_lower_mends_too_is_left_to_nothing_higher() {
+        const PIXEL: Components = Components::PIXEL;
+        const EMISSION: Components = Components::EMISSION;
+        // The last, for which there is no time, passes with the bench's pixel as well as with its emission.
+        let needs: [&[Components]; 3] = [&[PIXEL], &[BSDF], &[PIXEL, EMISSION]];
+        let mut try_cases = |with: Components, cases: &[usize]| {
+            let passes = |case: &usize| needs[*case].iter().any(|one| with.contains(*one));
+            let (passing, failing) = cases.iter().partition(|case| passes(case));
+            Tried { passing, failing }
+        };
+        let asks = |case: usize| if case == 0 { PIXEL } else { Components::empty() };
+        let turns = [vec![0, 1, 2], Vec::new()];
+        let failures = Failures { turns, asks: &asks, affordable: &|_| 1 };
+        let found = smallest(Components::all(), &failures, &mut try_cases);
+        assert_eq!(counts(&found), [(BSDF, 1, 1), (PIXEL, 1, 1), (EMISSION, 1, 1)]);
     }
 
     #[test]

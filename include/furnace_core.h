@@ -351,7 +351,7 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_ROULETTE = 1u << 4,            /* roulette_stop is honoured; survival may have a probability of
                                            * your own, by which you divide, without PLAIN_ESTIMATORS */
    FURNACE_ADAPTIVE_SAMPLING = 1u << 5,   /* render honours `adaptive` and fills sample_counts */
-   FURNACE_COUNTS_TRAVERSAL = 1u << 6,    /* traversal stats are real */
+   FURNACE_COUNTS_TRAVERSAL = 1u << 6,    /* traversal stats are real; needless beside COUNTED_TESTS */
    FURNACE_COUNTED_TESTS = 1u << 7,       /* traversal uses furnace_build.counted */
    FURNACE_CALLERS_RANDOMNESS = 1u << 8,  /* sampling uses the caller's numbers: replayable */
    FURNACE_DETERMINISTIC = 1u << 9,       /* the same settings and seed give the same bits */
@@ -467,7 +467,9 @@ typedef struct furnace_core {
    /* out[i] is 1 if anything lies strictly between t_min and t_max, else 0. */
    furnace_status (*occluded)(void *self, furnace_built *built, const furnace_ray *rays,
                               uint8_t *out, size_t count, furnace_traversal_stats *stats);
-   /* A direction from each point towards light `light`; visibility is not tested. */
+   /* A direction from each point towards light `light`; visibility is not tested. Any pdf is right that the
+    * samples follow and that is above 0 wherever the light emits towards the point: a sample of what does not, such
+    * as the back of a triangle or a sphere beyond its cap, is valid and has no radiance. */
    furnace_status (*sample_light)(void *self, furnace_built *built, uint32_t light,
                                   const furnace_vec3 *from, const furnace_randomness *random,
                                   furnace_light_sample *out, size_t count);

@@ -154,6 +154,19 @@ impl Ranked {
         self.causes.retain(|headline| !headline.explains.is_empty());
     }
 
+    /// What this cause explains follows from the others.
+    pub(super) fn leave_to_others(&mut self, cause: &str) {
+        let left: Vec<_> = self.causes.extract_if(.., |one| one.cause == cause).collect();
+        for case in left.into_iter().flat_map(|one| one.explains.into_iter().chain(one.may_follow))
+        {
+            if !self.followed_by(&case)
+                && let Some(first) = self.causes.first_mut()
+            {
+                first.may_follow.push(case);
+            }
+        }
+    }
+
     /// What differs, and what no more than looks like a cause.
     pub(super) fn unnamed(&self) -> impl Iterator<Item = &Headline> {
         let vague = self.causes.iter().filter(|headline| headline.degree == Degree::LooksLike);
@@ -224,8 +237,8 @@ impl Ranked {
         for headline in &mut self.differing {
             let subject = headline.explains.first().and_then(|case| Subject::of_case(case));
             let asked = subject.map_or(Components::empty(), asked_by);
-            let below: Components =
-                broken.iter().filter(|one| asked.iter().any(|of| of.is_made_of(*one))).collect();
+            let is_below = |one: &Components| asked.iter().any(|of| of.is_made_of(*one));
+            let below: Components = (broken - asked).iter().filter(is_below).collect();
             if !below.is_empty() && !headline.explains.iter().any(|case| is_tried(case)) {
                 headline.mistake += &format!(", or only the core's {}", below.in_words());
             }

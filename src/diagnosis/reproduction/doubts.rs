@@ -163,6 +163,27 @@ impl<'a> Proof<'a> {
         least.copied().and_then(all_of).unwrap_or_default()
     }
 
+    /// A cause whose numbers all others that are told give together, and not with it. Of several the one that explains the
+    /// least.
+    pub(super) fn needless(&self, told: &Ranked) -> Option<String> {
+        let told: Vec<_> =
+            told.with_cause().filter_map(|one| Some((one, self.likeliest(one)?))).collect();
+        let all: Vec<_> = told.iter().map(|(_, mistake)| *mistake).collect();
+        let is_needless = |(one, own): &&(&Headline, Mistake)| {
+            let others = all.iter().filter(|other| other.name != own.name).copied().collect();
+            let cases = self.quickest(&one.explains);
+            let is_given = || {
+                let answers = self.compare(&[others, all.clone()], &cases);
+                let is_other = |one: &Likeness| matches!(one, Likeness::Alike | Likeness::Other);
+                answers[0].iter().all(|likeness| *likeness == Likeness::Same)
+                    && answers[1].iter().any(is_other)
+            };
+            all.len() > 1 && !cases.is_empty() && !self.is_needed(one) && is_given()
+        };
+        let needless = told.iter().filter(is_needless).map(|(one, _)| *one);
+        Some(needless.min_by_key(|one| one.explains.len())?.cause.clone())
+    }
+
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
     /// mistake, or among twice as much in all parts: one mistake is all there is.
     fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {

@@ -98,14 +98,18 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
     Sifted::of(evidence, planted, made_in).and_searched()
 }
 
-/// The same where NaN, infinite and negative numbers that all that is named gives together follow from it, whatever
-/// component each mistake is made in.
+/// The same without causes that nothing takes where all that is named is planted together, and where NaN, infinite and
+/// negative numbers that it gives follow from it, whatever component each mistake is made in.
 pub(super) fn without_what_follows(
     mut told: Ranked,
     evidence: &Evidence<'_>,
     planted: &dyn Planted,
 ) -> Ranked {
     let proof = Proof { evidence, planted, made_in: MadeIn::Unknown };
+    for _ in 0..ROUNDS {
+        let Some(cause) = proof.needless(&told) else { break };
+        told.leave_to_others(&cause);
+    }
     let following = proof.symptoms_given_by_all(&told);
     told.follow(&following);
     told

@@ -508,6 +508,32 @@ fn a_negative_number_that_all_that_is_named_gives_follows_from_it() {
 }
 
 #[test]
+fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_has_it() {
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+        .with("light/c", light(0.7).because(&light::WORLD_COSINE, "z"));
+    let evidence = made.evidence();
+    let told = |with_all: f64| {
+        let gives: &[(&[&str], _, _)] = &[
+            (&["pi", "divided"], "light/c", 0.7),
+            (&["pi", "divided", "cosine"], "light/c", with_all),
+        ];
+        let bench = Bench { mistakes: &[PI, DIVIDED, COSINE], gives };
+        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
+        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        told.into_iter().map(|told| (told.cause, told.may_follow)).collect::<Vec<_>>()
+    };
+    let [pi, divided, cosine] =
+        [&bsdf::WITHOUT_PI, &light::DIVIDED_BY_LIGHTS, &light::WORLD_COSINE].map(|c| c.name);
+    let alone = |cause: &str| (cause.to_owned(), Vec::new());
+    let first = (pi.to_owned(), vec!["light/c".to_owned()]);
+    assert_eq!(told(1.2), [first, alone(divided)]);
+    let all = [pi, cosine, divided].map(alone);
+    assert_eq!(told(0.7), all, "it changes nothing there, and may be made elsewhere");
+}
+
+#[test]
 fn of_all_that_is_told_each_explains_what_it_is_needed_for() {
     let made = Made::new()
         .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))

@@ -260,8 +260,7 @@ impl Furnace {
     fn lost_ways(&self, case: &str) -> Option<Suspicion> {
         let isolated = || self.rows.iter().filter(|row| row.is_isolated());
         let mut direct = isolated().filter(|row| row.bounces[0] == 1).peekable();
-        let right = direct.peek().is_some()
-            && direct.all(|row| row.readings.iter().flatten().all(|r| r.admits(1.0)));
+        let right = direct.peek().is_some() && direct.all(Row::is_right);
         let indirect = || isolated().filter(|row| row.bounces[0] > 1);
         let first = indirect().filter(|row| row.bounces[0] == 2);
         let wrong = first.flat_map(|row| row.readings.iter().flatten()).any(|r| !r.admits(1.0));

@@ -159,10 +159,9 @@ impl Ranked {
         let left: Vec<_> = self.causes.extract_if(.., |one| one.cause == cause).collect();
         for case in left.into_iter().flat_map(|one| one.explains.into_iter().chain(one.may_follow))
         {
-            if !self.followed_by(&case)
-                && let Some(first) = self.causes.first_mut()
-            {
-                first.may_follow.push(case);
+            let before = self.causes.iter().position(|one| one.comes_before(&case));
+            if let Some(one) = self.causes.get_mut(before.unwrap_or(0)) {
+                one.may_follow.push(case);
             }
         }
     }

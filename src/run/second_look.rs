@@ -62,11 +62,13 @@ pub(crate) fn look_again(
         let again = purse.pay_each(plan.jobs(), told.len(), &|number| {
             let record = told[number];
             let with = match transplants.place_of(&record.case) {
-                None if is_of(plan, record, own, transplants) => all_but(own, core.components),
-                mending => beside(own, mending == Some(own), broken),
+                // What it is not known what mends may fail for more than was found.
+                None if is_of(plan, record, own, transplants) => {
+                    beside(own, true, core.components, record.with)
+                }
+                mending => beside(own, mending == Some(own), broken, record.with),
             };
-            // It was asked beside those that the case took in the run.
-            again(plan, [&quick, &bench], record, (record.with | with) - own)
+            again(plan, [&quick, &bench], record, with)
         });
         SecondLook { own, again: again.into_iter().flatten().collect(), of_own }
     };
@@ -79,18 +81,12 @@ pub(crate) fn look_again(
     views
 }
 
-/// What is the bench's where one of the `broken` components is the core's own. Of a case that it mends those that are made
-/// of it stay the core's: with the bench's it is not asked.
-fn beside(own: Components, is_mended: bool, broken: Components) -> Components {
-    let hides = |one: &Components| is_mended && one.is_made_of(own);
-    let hiding: Components = broken.iter().filter(hides).collect();
-    broken - hiding
-}
-
-/// Where it is not known what mends a case that asks about `own`, there may be more that is broken than was found: all
-/// that a core takes is the bench's, but what is made of `own`.
-fn all_but(own: Components, takes: Components) -> Components {
-    takes.iter().filter(|one| !one.is_made_of(own)).collect()
+/// What of the `others` is the bench's where `own` is the core's. Of a case that is `about` it those that are made of it stay
+/// the core's: with the bench's it is not asked. It was asked beside those that the case took in the run.
+fn beside(own: Components, about: bool, others: Components, taken: Components) -> Components {
+    let hides = |one: &Components| about && one.is_made_of(own);
+    let hiding: Components = others.iter().filter(hides).collect();
+    (taken | (others - hiding)) - own
 }
 
 /// Whether a case asks about `own` or is mended by it.
@@ -146,13 +142,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_hides_a_component_is_the_cores() {
+    fn what_hides_a_component_is_the_cores_unless_the_run_had_taken_it() {
         let (own, bsdf) = (Components::DIRECTION_SAMPLING, Components::BSDF);
         let broken = own | bsdf | Components::BOX_TEST;
-        assert_eq!(beside(own, false, broken), broken);
-        assert_eq!(beside(own, true, broken), own | Components::BOX_TEST);
-        assert_eq!(beside(bsdf, true, broken), broken);
-        assert!(!all_but(own, Components::all()).intersects(bsdf | Components::PATH));
-        assert!(all_but(own, Components::all()).contains(Components::BOX_TEST));
+        let nothing = Components::empty();
+        assert_eq!(beside(own, false, broken, nothing), bsdf | Components::BOX_TEST);
+        assert_eq!(beside(own, true, broken, nothing), Components::BOX_TEST);
+        assert_eq!(beside(own, true, broken, bsdf), bsdf | Components::BOX_TEST);
+        assert_eq!(beside(bsdf, true, broken, bsdf), own | Components::BOX_TEST);
+        let of_all = beside(own, true, Components::all(), nothing);
+        assert!(of_all.contains(Components::BOX_TEST) && !of_all.intersects(own | bsdf));
     }
 }

@@ -541,7 +541,7 @@ fn attribute(
 #[cfg(test)]
 mod tests {
     use crate::case::{Foundation, Tier};
-    use crate::cause::{bsdf, bvh, contract, image, integrator, light, shape};
+    use crate::cause::{bsdf, bvh, camera, contract, image, integrator, light, shape};
     use crate::checks::law::LOST_SAMPLES;
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Degree, diagnose};
@@ -736,6 +736,7 @@ mod tests {
         let pairs = [
             (&bvh::HIT_OVERWRITTEN, &bvh::SEGMENT_NOT_SHORTENED),
             (&shape::DETERMINANT_THRESHOLD, &integrator::FIXED_LENGTH),
+            (&camera::HALF_PIXEL_TWICE, &camera::HALF_A_PIXEL),
         ];
         for (cause, brought) in pairs {
             let made = || {

@@ -10,7 +10,7 @@ use super::search::{is_gross, without_patience};
 use crate::case::{Role, Subject};
 use crate::checks::Finding;
 use crate::contract::Components;
-use crate::cores::textbook::variant::AND;
+use crate::cores::textbook::variant::{self, AND};
 use crate::cores::textbook::{different, fault};
 use crate::diagnosis::{Isolation, Mistake, Planted, Question, isolation};
 use crate::stats::{Allowance, Budget};
@@ -268,12 +268,16 @@ fn without_mistakes((_, case, with, roughly): &Asked) -> Asked {
 }
 
 fn asked(question: &Question<'_>) -> Asked {
-    // Several may be made beside one choice.
-    let words = question.mistakes.iter().flat_map(|mistake| mistake.name.split(AND));
+    let core = format!("{TEXTBOOK}:{}", joined(&question.mistakes));
+    (core, question.case.to_owned(), question.with, question.roughly)
+}
+
+/// The textbook's variant with all of these; several may be made beside one choice.
+fn joined(mistakes: &[Mistake]) -> String {
+    let words = mistakes.iter().flat_map(|mistake| mistake.name.split(AND));
     let mut seen = BTreeSet::new();
     let names: Vec<_> = words.filter(|word| seen.insert(*word)).collect();
-    let core = format!("{TEXTBOOK}:{}", names.join(&AND.to_string()));
-    (core, question.case.to_owned(), question.with, question.roughly)
+    names.join(&AND.to_string())
 }
 
 impl Planted for PlantedFaults<'_> {
@@ -283,6 +287,10 @@ impl Planted for PlantedFaults<'_> {
 
     fn is_seen_roughly(&self, case: &str) -> bool {
         self.glaring.contains(case)
+    }
+
+    fn may_be_together(&self, mistakes: &[Mistake]) -> bool {
+        variant::core(&joined(mistakes)).is_ok()
     }
 
     fn keep_for(&self, others: usize) {
@@ -307,7 +315,6 @@ impl Planted for PlantedFaults<'_> {
 mod tests {
     use super::*;
     use crate::case;
-    use crate::cores::textbook::variant;
     use crate::project::Project;
     use crate::run::Request;
     use crate::run::purse::{A_SECOND, LONGEST_TRIAL};

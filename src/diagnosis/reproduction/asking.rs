@@ -20,14 +20,19 @@ impl<'a> Proof<'a> {
     /// Of the planted mistakes of a headline's cause the one that gives its numbers, or else the first: a count is one too many
     /// or one too few.
     pub(super) fn likeliest(&self, headline: &Headline) -> Option<Mistake> {
-        let sets: Vec<_> = self.of(headline).map(|mistake| vec![mistake]).collect();
-        let first = sets.first()?[0];
-        if sets.len() == 1 {
-            return Some(first);
+        self.likely(headline).first().copied()
+    }
+
+    /// The planted mistake of a headline's cause that gives its numbers, or all of them where none does.
+    pub(super) fn likely(&self, headline: &Headline) -> Vec<Mistake> {
+        let all: Vec<_> = self.of(headline).collect();
+        if all.len() < 2 {
+            return all;
         }
+        let sets = all.iter().map(|mistake| vec![*mistake]).collect();
         let likely = self.likely_at_first(sets, &self.quickest(&headline.explains));
         let mut likely = likely.into_iter().map(|set| set[0]);
-        likely.find(|one| self.is_reproduced(*one, headline)).or(Some(first))
+        likely.find(|one| self.is_reproduced(*one, headline)).map_or(all, |one| vec![one])
     }
 
     /// Those sets that a first look at each case does not tell from the core.

@@ -10,10 +10,11 @@ use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Headline, Observation, Suspicion, look_without};
 use std::collections::BTreeSet;
-use std::slice;
 
 /// Cases of a cause that may contradict it one by one: what it does not explain may be another mistake of the same lines.
 const CONTRADICTING: usize = 16;
+/// Sets of one mistake of each cause that are asked what all causes give together.
+const TOGETHER: usize = 8;
 
 impl<'a> Proof<'a> {
     /// What is told after everything that is contradicted has made room for the next suspicion.
@@ -143,45 +144,56 @@ impl<'a> Proof<'a> {
         following.copied().filter_map(all_of).flatten().collect()
     }
 
-    /// A cause whose numbers all others that are told give together: nothing takes it. Of several the one that explains the
-    /// least.
+    /// A cause whose numbers all others that are told give together, whichever mistakes theirs are: nothing takes it. Of
+    /// several the one that explains the least.
     fn superfluous(&self, ranked: &Ranked) -> Refuted {
-        let told: Vec<_> = ranked.with_cause().collect();
+        let told: Vec<_> = ranked.with_cause().map(|one| (one, self.likely(one))).collect();
         // That all others leave it dark where it is dark is enough here: they are told already.
-        let is_superfluous = |one: &&&Headline| {
-            let others = told.iter().filter(|other| other.cause != one.cause);
-            let others: Vec<_> = others.filter_map(|other| self.likeliest(other)).collect();
+        let is_superfluous = |(one, _): &&(&Headline, Vec<Mistake>)| {
+            let others = beside(one, &told);
             let cases = self.quickest(&one.explains);
+            let is_asked = !others[0].is_empty() && !cases.is_empty();
             let is_given = || {
-                self.compare(slice::from_ref(&others), &cases)[0]
-                    .iter()
-                    .all(|of| of.is_reproduced())
+                let answers = self.compare(&others, &cases);
+                answers.iter().any(|of_set| of_set.iter().all(|one| one.is_reproduced()))
             };
-            !others.is_empty() && !cases.is_empty() && !self.is_needed(one) && is_given()
+            is_asked && !self.is_needed(one) && is_given()
         };
-        let least = told.iter().filter(is_superfluous).min_by_key(|one| one.explains.len());
-        least.copied().and_then(all_of).unwrap_or_default()
+        let superfluous = told.iter().filter(is_superfluous).map(|(one, _)| *one);
+        superfluous.min_by_key(|one| one.explains.len()).and_then(all_of).unwrap_or_default()
     }
 
-    /// A cause whose numbers all others that are told give together, and not with it. Of several the one that explains the
-    /// least.
+    /// A cause whose numbers all others that are told give together, and not with it, whichever mistakes theirs are. Of several
+    /// the one that explains the least.
     pub(super) fn needless(&self, told: &Ranked) -> Option<String> {
-        let told: Vec<_> =
-            told.with_cause().filter_map(|one| Some((one, self.likeliest(one)?))).collect();
-        let all: Vec<_> = told.iter().map(|(_, mistake)| *mistake).collect();
-        let is_needless = |(one, own): &&(&Headline, Mistake)| {
-            let others = all.iter().filter(|other| other.name != own.name).copied().collect();
+        let told: Vec<_> = told.with_cause().map(|one| (one, self.likely(one))).collect();
+        let is_needless = |(one, own): &&(&Headline, Vec<Mistake>)| {
+            let others = beside(one, &told);
             let cases = self.quickest(&one.explains);
-            let is_given = || {
-                let answers = self.compare(&[others, all.clone()], &cases);
-                let is_other = |one: &Likeness| matches!(one, Likeness::Alike | Likeness::Other);
-                answers[0].iter().all(|likeness| *likeness == Likeness::Same)
-                    && answers[1].iter().any(is_other)
-            };
-            all.len() > 1 && !cases.is_empty() && !self.is_needed(one) && is_given()
+            let is_asked = !own.is_empty() && !others[0].is_empty() && !cases.is_empty();
+            is_asked && !self.is_needed(one) && self.give_without(&others, own, &cases)
         };
         let needless = told.iter().filter(is_needless).map(|(one, _)| *one);
         Some(needless.min_by_key(|one| one.explains.len())?.cause.clone())
+    }
+
+    /// Whether one of the sets gives the numbers of all `cases`, and others, if any, with any of `own` beside it.
+    fn give_without(
+        &self,
+        sets: &[Vec<Mistake>],
+        own: &[Mistake],
+        cases: &[&Observation<'a>],
+    ) -> bool {
+        let answers = self.compare(sets, cases);
+        let is_given = |of_set: &[Likeness]| of_set.iter().all(|one| *one == Likeness::Same);
+        let giving = sets.iter().zip(&answers).filter(|(_, of_set)| is_given(of_set));
+        let giving: Vec<_> = giving.map(|(set, _)| set.clone()).collect();
+        let beside =
+            giving.iter().flat_map(|set| own.iter().map(|one| [&set[..], &[*one]].concat()));
+        let possible: Vec<_> = beside.filter(|set| self.planted.may_be_together(set)).collect();
+        let is_other = |one: &Likeness| matches!(one, Likeness::Alike | Likeness::Other);
+        let with = self.compare(&possible, cases);
+        !giving.is_empty() && with.iter().all(|of_set| of_set.iter().any(is_other))
     }
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
@@ -289,6 +301,24 @@ impl<'a> Proof<'a> {
             .peekable();
         known.peek().is_some() && !known.any(is_same)
     }
+}
+
+/// Sets of one mistake of each cause that is told beside this one.
+fn beside(one: &Headline, told: &[(&Headline, Vec<Mistake>)]) -> Vec<Vec<Mistake>> {
+    let others = told.iter().filter(|(other, _)| other.cause != one.cause);
+    one_of_each(others.map(|(_, mistakes)| &mistakes[..]))
+}
+
+/// Sets of one mistake out of each of these, and no more than `TOGETHER` of them.
+fn one_of_each<'m>(of: impl Iterator<Item = &'m [Mistake]>) -> Vec<Vec<Mistake>> {
+    let beside = |sets: Vec<Vec<Mistake>>, mistakes: &[Mistake]| {
+        let with_each = |set: Vec<Mistake>| match mistakes {
+            [] => vec![set],
+            _ => mistakes.iter().map(|one| [&set[..], &[*one]].concat()).collect(),
+        };
+        sets.into_iter().flat_map(with_each).take(TOGETHER).collect()
+    };
+    of.fold(vec![Vec::new()], beside)
 }
 
 /// All that a cause explains, against it.

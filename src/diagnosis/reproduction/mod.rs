@@ -57,6 +57,11 @@ pub(crate) trait Planted {
         false
     }
 
+    /// Whether one core can make them all.
+    fn may_be_together(&self, _mistakes: &[Mistake]) -> bool {
+        true
+    }
+
     /// Keeps as much time for each of so many others as for what is asked next.
     fn keep_for(&self, _others: usize) {}
 

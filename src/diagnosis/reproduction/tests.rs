@@ -534,6 +534,75 @@ fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_ha
 }
 
 #[test]
+fn what_cannot_be_made_beside_the_others_that_give_its_numbers_is_not_told() {
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::WORLD_COSINE, "y"));
+    let evidence = made.evidence();
+    let causes = |exclude_each_other: bool| {
+        let gives: &[(&[&str], _, _)] =
+            &[(&["pi"], "light/b", 0.5), (&["pi", "cosine"], "light/b", 0.5)];
+        let of_both = Bench { mistakes: &[PI, COSINE], gives };
+        let bench = Exclusive { of_both, exclude_each_other };
+        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
+        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        told.into_iter().map(|told| told.cause).collect::<Vec<_>>()
+    };
+    let [pi, cosine] = [&bsdf::WITHOUT_PI, &light::WORLD_COSINE].map(|cause| cause.name);
+    assert_eq!(causes(true), [pi]);
+    assert_eq!(causes(false), [pi, cosine]);
+}
+
+/// Mistakes that one core can make, or not.
+struct Exclusive<'a> {
+    of_both: Bench<'a>,
+    exclude_each_other: bool,
+}
+
+impl Planted for Exclusive<'_> {
+    fn mistakes(&self) -> &[Mistake] {
+        self.of_both.mistakes()
+    }
+
+    fn may_be_together(&self, mistakes: &[Mistake]) -> bool {
+        mistakes.len() < 2 || !self.exclude_each_other
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let one = |question: &Question<'_>| {
+            let answer = self.of_both.ask(std::slice::from_ref(question)).pop().flatten();
+            answer.filter(|_| self.may_be_together(&question.mistakes))
+        };
+        questions.iter().map(one).collect()
+    }
+}
+
+#[test]
+fn whichever_mistake_of_a_cause_gives_the_numbers_beside_others_nothing_else_is_told_of_them() {
+    const IN_FULL: Mistake = mistake("in-full", &bsdf::WITHOUT_PI, "bsdf/a");
+    const EVERYWHERE: Mistake = mistake("everywhere", &bsdf::WITHOUT_PI, "bsdf/a");
+    let made = Made::new()
+        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
+        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
+        .with("light/c", light(0.7).because(&light::WORLD_COSINE, "z"));
+    let evidence = made.evidence();
+    let told = |with_all: f64| {
+        let gives: &[(&[&str], _, _)] = &[
+            (&["in-full", "divided"], "light/c", 0.9),
+            (&["everywhere", "divided"], "light/c", 0.7),
+            (&["everywhere", "divided", "cosine"], "light/c", with_all),
+        ];
+        let bench = Bench { mistakes: &[IN_FULL, EVERYWHERE, DIVIDED, COSINE], gives };
+        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
+        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        told.into_iter().map(|told| told.cause).collect::<Vec<_>>()
+    };
+    let all = [&bsdf::WITHOUT_PI, &light::WORLD_COSINE, &light::DIVIDED_BY_LIGHTS].map(|c| c.name);
+    assert_eq!(told(1.2), [all[0], all[2]]);
+    assert_eq!(told(0.7), all, "it changes nothing there, and may be made elsewhere");
+}
+
+#[test]
 fn of_all_that_is_told_each_explains_what_it_is_needed_for() {
     let made = Made::new()
         .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use walkdir::{DirEntry, WalkDir};
 
 /// The root of a checkout, or of any folder laid out like one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,7 +64,7 @@ impl Project {
     }
 
     /// The project that the user stands in: `FURNACE_HOME`, or the nearest folder above the current one that
-    /// has `cases` or `suites`, or else the current one.
+    /// has cases or suites of its own, or else the current one.
     pub(crate) fn find() -> Result<Self, NoProject> {
         if let Some(home) = std::env::var_os("FURNACE_HOME") {
             return Self::over_the_bench(home.into());
@@ -162,7 +163,13 @@ impl Project {
 }
 
 fn is_root(folder: &Path) -> bool {
-    folder.join("cases").is_dir() || folder.join("suites").is_dir()
+    ["cases", "suites"].iter().any(|name| holds_toml(&folder.join(name)))
+}
+
+/// Folders of these names stand in many places; ours hold cases, below a folder for each part, or suites.
+fn holds_toml(folder: &Path) -> bool {
+    let files = WalkDir::new(folder).max_depth(2).into_iter().filter_map(Result::ok);
+    files.map(DirEntry::into_path).any(|path| path.extension().is_some_and(|of| of == "toml"))
 }
 
 /// Whether all that the bench consists of is here.

@@ -108,6 +108,20 @@ fn a_project_is_laid_over_the_bench() {
 }
 
 #[test]
+fn a_folder_above_that_is_only_called_like_ours_is_no_project() {
+    let here = Elsewhere::new();
+    for folder in ["suites/theirs", "cases", "mine"] {
+        std::fs::create_dir_all(here.path().join(folder)).unwrap();
+    }
+    std::fs::write(here.path().join("suites/theirs/notes.txt"), "nothing of ours\n").unwrap();
+    here.told("mine", &["new", "suite", "homework"]);
+    assert!(here.path().join("mine/suites/homework.toml").is_file());
+    std::fs::create_dir(here.path().join("mine/build")).unwrap();
+    here.told("mine/build", &["new", "suite", "exam"]);
+    assert!(here.path().join("mine/suites/exam.toml").is_file(), "one above is of ours");
+}
+
+#[test]
 fn a_new_core_in_cpp_passes_as_its_commands_say() {
     let here = Elsewhere::new();
     let told = here.told(".", &["new", "core", "--lang", "cpp", "mine"]);

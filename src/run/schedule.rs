@@ -1,13 +1,14 @@
 //! Which trial is next: the first, in the order of the plan, whose foundations have been tried. A trial whose
 //! foundation was found broken is tried with the components of the bench that stand for it, or else as it is, or else
-//! blocked.
+//! blocked. What a core has not answered yet it is asked in one trial at a time, as far as there are others: if it never
+//! answers, one waits for it, and the rest goes on.
 
 use super::bench::Bench;
 use super::outcome::{Outcome, Status};
 use super::plan::{Plan, Trial};
 use crate::case::{Case, Foundation, asked_about, foundations};
 use crate::checks::Measure;
-use crate::contract::Components;
+use crate::contract::{Capabilities, Components};
 use crate::stats::TestKind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -101,7 +102,9 @@ impl<'a> Schedule<'a> {
                 return None;
             }
             let waiting = || (0..state.fates.len()).filter(|n| state.fates[*n] == Fate::Waiting);
-            if let Some(number) = waiting().find(|number| self.is_ready(&state, *number)) {
+            let ready = || waiting().filter(|number| self.is_ready(&state, *number));
+            let next = ready().find(|number| !self.may_hang(&state, *number));
+            if let Some(number) = next.or_else(|| ready().next()) {
                 state.fates[number] = Fate::Running;
                 return Some(self.next_of(&state, number));
             }
@@ -150,6 +153,21 @@ impl<'a> Schedule<'a> {
     fn is_ready(&self, state: &State, number: usize) -> bool {
         let open = |(_, n): &(_, usize)| matches!(state.fates[*n], Fate::Waiting | Fate::Running);
         !self.rests_on[number].iter().any(open)
+    }
+
+    /// Whether it needs something of its core that is being asked, and that no trial has come to an end with.
+    fn may_hang(&self, state: &State, number: usize) -> bool {
+        let trials = &self.plan.trials;
+        let needed = |is_wanted: fn(&Fate) -> bool| -> Capabilities {
+            let of_core = trials
+                .iter()
+                .zip(&state.fates)
+                .filter(|(trial, fate)| trial.core == trials[number].core && is_wanted(fate));
+            of_core.map(|(trial, _)| trial.case.prepared.needs()).collect()
+        };
+        let asked = needed(|fate| *fate == Fate::Running);
+        let answered = needed(|fate| matches!(fate, Fate::Ended(_)));
+        (asked - answered).intersects(trials[number].case.prepared.needs())
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -404,6 +422,26 @@ mod tests {
             schedule.ended(number, &outcome(false));
             assert_eq!(id(&plan, &second.join().unwrap().unwrap()), FURNACE);
         });
+    }
+
+    #[test]
+    fn what_has_never_been_answered_is_asked_in_one_trial_at_a_time() {
+        const WHITE: &str = "camera/constant-radiance-gives-a-constant-image";
+        const UPRIGHT: &str = "camera/image-is-upright-and-not-mirrored";
+        const STREAMS: &str = "adaptive/known-streams-stop-where-the-rule-says";
+        let plan = plan(&[WHITE, UPRIGHT, STREAMS]);
+        let number_of = |next: Option<Next>| match next {
+            Some(Next::Try(number)) => number,
+            other => panic!("{other:?}"),
+        };
+        let case = |number: usize| &plan.trials[number].case.id[..];
+        let is_silent = schedule(&plan);
+        let tried: Vec<_> = (0..3).map(|_| case(number_of(is_silent.next()))).collect();
+        assert_eq!(tried, [WHITE, STREAMS, UPRIGHT], "where nothing else is left, all the same");
+        let answers = schedule(&plan);
+        answers.ended(number_of(answers.next()), &outcome(false));
+        let tried: Vec<_> = (0..2).map(|_| case(number_of(answers.next()))).collect();
+        assert_eq!(tried, [UPRIGHT, STREAMS]);
     }
 
     #[test]

@@ -81,8 +81,9 @@ impl Check for LightSamplesReachLight {
             let seed = seed.child(number);
             let label = format!("point {}", number + 1);
             let samples = point.samples(built.as_mut(), light.0, seed.child("traced"), TRACED)?;
-            let traced = Traced::new(built.as_mut(), point.from.0, samples, light.1)?;
-            measures.push(traced.reached(&label, Tolerance::INTERSECTION.of(precision)));
+            let tolerance = Tolerance::INTERSECTION.of(precision);
+            let traced = Traced::new(built.as_mut(), point.from.0, samples, light.1, tolerance)?;
+            measures.push(traced.reached(&label));
             if point.form_factor.0 == 0.0 {
                 measures.push(traced.dark(&label));
                 shines_backwards |= !traced.samples.is_empty();

@@ -50,6 +50,20 @@ struct State {
     stopped: bool,
     /// Of each core, what trials have taken that were tried on what is broken and did not pass, seconds.
     in_vain: BTreeMap<String, f64>,
+    /// Of each core, what trials needed that came to an end.
+    answered: BTreeMap<String, Capabilities>,
+}
+
+impl State {
+    fn ended(&mut self, number: usize, trial: &Trial, outcome: &Outcome) {
+        self.fates[number] = Fate::Ended(blocker(trial, outcome));
+        let is_silent =
+            matches!(outcome.status(), Status::Crashed | Status::TimedOut | Status::Blocked);
+        if !is_silent {
+            *self.answered.entry(trial.core.to_string()).or_default() |=
+                trial.case.prepared.needs();
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,19 +93,17 @@ impl<'a> Schedule<'a> {
         todo: &[usize],
         earlier: &[(usize, Outcome)],
     ) -> Self {
-        let mut fates = vec![Fate::Left; plan.trials.len()];
+        let fates = vec![Fate::Left; plan.trials.len()];
+        let (in_vain, answered) = Default::default();
+        let mut state = State { fates, stopped: false, in_vain, answered };
         for number in todo {
-            fates[*number] = Fate::Waiting;
+            state.fates[*number] = Fate::Waiting;
         }
         for (number, outcome) in earlier {
-            fates[*number] = Fate::Ended(blocker(&plan.trials[*number], outcome));
+            state.ended(*number, &plan.trials[*number], outcome);
         }
-        Self {
-            plan,
-            rests_on: provers(plan, bench),
-            state: Mutex::new(State { fates, stopped: false, in_vain: BTreeMap::new() }),
-            changed: Condvar::new(),
-        }
+        let (state, changed) = (Mutex::new(state), Condvar::new());
+        Self { plan, rests_on: provers(plan, bench), state, changed }
     }
 
     /// The next trial; waits where all that is left rests on what is being tried. None when nothing is left.
@@ -114,7 +126,7 @@ impl<'a> Schedule<'a> {
     }
 
     pub(crate) fn ended(&self, number: usize, outcome: &Outcome) {
-        self.lock().fates[number] = Fate::Ended(blocker(&self.plan.trials[number], outcome));
+        self.lock().ended(number, &self.plan.trials[number], outcome);
         self.changed.notify_all();
     }
 
@@ -155,19 +167,15 @@ impl<'a> Schedule<'a> {
         !self.rests_on[number].iter().any(open)
     }
 
-    /// Whether it needs something of its core that is being asked, and that no trial has come to an end with.
+    /// Whether it needs what its core is being asked, and has not answered yet.
     fn may_hang(&self, state: &State, number: usize) -> bool {
-        let trials = &self.plan.trials;
-        let needed = |is_wanted: fn(&Fate) -> bool| -> Capabilities {
-            let of_core = trials
-                .iter()
-                .zip(&state.fates)
-                .filter(|(trial, fate)| trial.core == trials[number].core && is_wanted(fate));
-            of_core.map(|(trial, _)| trial.case.prepared.needs()).collect()
-        };
-        let asked = needed(|fate| *fate == Fate::Running);
-        let answered = needed(|fate| matches!(fate, Fate::Ended(_)));
-        (asked - answered).intersects(trials[number].case.prepared.needs())
+        let trial = &self.plan.trials[number];
+        let of_all = self.plan.trials.iter().zip(&state.fates);
+        let asked =
+            of_all.filter(|(other, fate)| **fate == Fate::Running && other.core == trial.core);
+        let asked: Capabilities = asked.map(|(other, _)| other.case.prepared.needs()).collect();
+        let answered = state.answered.get(trial.core.as_str()).copied().unwrap_or_default();
+        (asked - answered).intersects(trial.case.prepared.needs())
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -428,20 +436,22 @@ mod tests {
     fn what_has_never_been_answered_is_asked_in_one_trial_at_a_time() {
         const WHITE: &str = "camera/constant-radiance-gives-a-constant-image";
         const UPRIGHT: &str = "camera/image-is-upright-and-not-mirrored";
+        const RECTANGLE: &str = "camera/rectangle-covers-its-share-of-the-image";
         const STREAMS: &str = "adaptive/known-streams-stop-where-the-rule-says";
-        let plan = plan(&[WHITE, UPRIGHT, STREAMS]);
-        let number_of = |next: Option<Next>| match next {
-            Some(Next::Try(number)) => number,
-            other => panic!("{other:?}"),
+        let plan = plan(&[WHITE, UPRIGHT, RECTANGLE, STREAMS]);
+        let next = |schedule: &Schedule<'_>, count: usize| -> Vec<_> {
+            (0..count).map(|_| id(&plan, &schedule.next().unwrap())).collect()
         };
-        let case = |number: usize| &plan.trials[number].case.id[..];
-        let is_silent = schedule(&plan);
-        let tried: Vec<_> = (0..3).map(|_| case(number_of(is_silent.next()))).collect();
-        assert_eq!(tried, [WHITE, STREAMS, UPRIGHT], "where nothing else is left, all the same");
-        let answers = schedule(&plan);
-        answers.ended(number_of(answers.next()), &outcome(false));
-        let tried: Vec<_> = (0..2).map(|_| case(number_of(answers.next()))).collect();
-        assert_eq!(tried, [UPRIGHT, STREAMS]);
+        let all = [WHITE, STREAMS, UPRIGHT, RECTANGLE];
+        assert_eq!(next(&schedule(&plan), 4), all, "where nothing else is left, all the same");
+        let after_the_first = |crashes: bool| {
+            let schedule = schedule(&plan);
+            let Some(Next::Try(first)) = schedule.next() else { panic!("nothing has failed") };
+            schedule.ended(first, &outcome(crashes));
+            next(&schedule, 3)
+        };
+        assert_eq!(after_the_first(false), [UPRIGHT, RECTANGLE, STREAMS]);
+        assert_eq!(after_the_first(true), [UPRIGHT, STREAMS, RECTANGLE], "a crash is no answer");
     }
 
     #[test]

@@ -23,9 +23,7 @@ pub struct Project {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NoProject {
     /// There is no checkout, and the program carries nothing.
-    #[error(
-        "no folder `cases` here or above; run furnace inside its checkout, or set FURNACE_HOME to it"
-    )]
+    #[error("no cases here or above; run furnace inside its checkout, or set FURNACE_HOME to it")]
     Nowhere,
     /// The folder that was named is not there.
     #[error(

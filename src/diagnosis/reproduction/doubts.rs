@@ -177,7 +177,7 @@ impl<'a> Proof<'a> {
         Some(needless.min_by_key(|one| one.explains.len())?.cause.clone())
     }
 
-    /// Whether one of the sets gives the numbers of all `cases`, and others, if any, with any of `own` beside it.
+    /// Whether one of the sets gives the numbers of all `cases`, and other numbers, if any, beside each of `own`.
     fn give_without(
         &self,
         sets: &[Vec<Mistake>],

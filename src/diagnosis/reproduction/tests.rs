@@ -4,7 +4,7 @@ use super::*;
 use crate::case::Foundation;
 use crate::cause::{bsdf, bvh, contract, integrator, light};
 use crate::diagnosis::testing::{Made, failing, mean, means, passing};
-use crate::diagnosis::{Degree, Diagnosis, diagnose, diagnose_proven};
+use crate::diagnosis::{Degree, Diagnosis, Headline, diagnose, diagnose_proven};
 use crate::image::Channel;
 
 const PI: Mistake = mistake("pi", &bsdf::WITHOUT_PI, "bsdf/a");
@@ -496,8 +496,7 @@ fn a_negative_number_that_all_that_is_named_gives_follows_from_it() {
         .with("integrator/c", failing("-1").because(&contract::NEGATIVE, "-1"));
     let evidence = made.evidence();
     let told = |bench| {
-        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
-        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        let told = without_needless(&evidence, &bench);
         told.into_iter().map(|told| (told.cause, told.may_follow)).collect::<Vec<_>>()
     };
     let alone = |cause: &Cause| (cause.name.to_owned(), Vec::new());
@@ -507,12 +506,23 @@ fn a_negative_number_that_all_that_is_named_gives_follows_from_it() {
     assert_eq!(told(NegativeTogether(false)), all.map(alone), "something else gives it");
 }
 
-#[test]
-fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_has_it() {
-    let made = Made::new()
+/// Three failures, each with a cause of its own.
+fn three_causes() -> Made {
+    Made::new()
         .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
         .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
-        .with("light/c", light(0.7).because(&light::WORLD_COSINE, "z"));
+        .with("light/c", light(0.7).because(&light::WORLD_COSINE, "z"))
+}
+
+/// What rules suspect, without what the others make needless.
+fn without_needless(evidence: &Evidence<'_>, bench: &dyn Planted) -> Vec<Headline> {
+    let ranked = look_without(evidence, &Refuted::new(), Vec::new());
+    without_what_follows(ranked, evidence, bench).told().headlines
+}
+
+#[test]
+fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_has_it() {
+    let made = three_causes();
     let evidence = made.evidence();
     let told = |with_all: f64| {
         let gives: &[(&[&str], _, _)] = &[
@@ -520,8 +530,7 @@ fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_ha
             (&["pi", "divided", "cosine"], "light/c", with_all),
         ];
         let bench = Bench { mistakes: &[PI, DIVIDED, COSINE], gives };
-        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
-        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        let told = without_needless(&evidence, &bench);
         told.into_iter().map(|told| (told.cause, told.may_follow)).collect::<Vec<_>>()
     };
     let [pi, divided, cosine] =
@@ -544,8 +553,7 @@ fn what_cannot_be_made_beside_the_others_that_give_its_numbers_is_not_told() {
             &[(&["pi"], "light/b", 0.5), (&["pi", "cosine"], "light/b", 0.5)];
         let of_both = Bench { mistakes: &[PI, COSINE], gives };
         let bench = Exclusive { of_both, exclude_each_other };
-        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
-        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        let told = without_needless(&evidence, &bench);
         told.into_iter().map(|told| told.cause).collect::<Vec<_>>()
     };
     let [pi, cosine] = [&bsdf::WITHOUT_PI, &light::WORLD_COSINE].map(|cause| cause.name);
@@ -581,10 +589,7 @@ impl Planted for Exclusive<'_> {
 fn whichever_mistake_of_a_cause_gives_the_numbers_beside_others_nothing_else_is_told_of_them() {
     const IN_FULL: Mistake = mistake("in-full", &bsdf::WITHOUT_PI, "bsdf/a");
     const EVERYWHERE: Mistake = mistake("everywhere", &bsdf::WITHOUT_PI, "bsdf/a");
-    let made = Made::new()
-        .with("bsdf/a", light(1.5).because(&bsdf::WITHOUT_PI, "x"))
-        .with("light/b", light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y"))
-        .with("light/c", light(0.7).because(&light::WORLD_COSINE, "z"));
+    let made = three_causes();
     let evidence = made.evidence();
     let told = |with_all: f64| {
         let gives: &[(&[&str], _, _)] = &[
@@ -593,8 +598,7 @@ fn whichever_mistake_of_a_cause_gives_the_numbers_beside_others_nothing_else_is_
             (&["everywhere", "divided", "cosine"], "light/c", with_all),
         ];
         let bench = Bench { mistakes: &[IN_FULL, EVERYWHERE, DIVIDED, COSINE], gives };
-        let ranked = look_without(&evidence, &Refuted::new(), Vec::new());
-        let told = without_what_follows(ranked, &evidence, &bench).told().headlines;
+        let told = without_needless(&evidence, &bench);
         told.into_iter().map(|told| told.cause).collect::<Vec<_>>()
     };
     let all = [&bsdf::WITHOUT_PI, &light::WORLD_COSINE, &light::DIVIDED_BY_LIGHTS].map(|c| c.name);

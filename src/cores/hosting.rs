@@ -77,7 +77,7 @@ impl Hosting {
 
     /// The same with nothing known of silences.
     pub(crate) fn patient(self) -> Self {
-        Self { patience: Patience::default(), ..self }
+        Self { patience: Patience::unhurried(), ..self }
     }
 
     /// Brings up a core.

@@ -100,8 +100,11 @@ impl Guard {
         (state.asked, state.thought) = (Some(limit), Duration::ZERO);
     }
 
-    pub(crate) fn answered(&self) {
-        self.lock().asked = None;
+    /// It has answered, or never will: the time that was charged to it for this, as far as it was looked at.
+    pub(crate) fn answered(&self) -> Duration {
+        let mut state = self.lock();
+        state.asked = None;
+        state.thought
     }
 
     fn look(&self) {

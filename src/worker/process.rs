@@ -170,7 +170,7 @@ impl Worker {
         }
         self.guard.asked(self.patience.limit(during, &self.limits));
         let outcome = exchange(&mut self.client);
-        self.guard.answered();
+        let thought = self.guard.answered();
         match outcome {
             // A program that its worker has ended.
             Ok(Answer::TimedOut { limit, during: program }) => {
@@ -178,7 +178,7 @@ impl Worker {
                 Ok(Answer::TimedOut { limit, during: program })
             }
             Ok(answer) => {
-                self.patience.answered(during);
+                self.patience.answered(during, thought);
                 Ok(answer)
             }
             Err(silence) => {

@@ -17,7 +17,7 @@ use std::time::Duration;
 /// the trial has. Of a core that has always answered, of one that has not, and where it was this very question; each of a
 /// quick core and of a slow one.
 const PARTS: [[u32; 2]; 3] = [[8, 4], [24, 12], [60, 24]];
-const LEAST: [[u64; 2]; 3] = [[10, 10], [5, 5], [2, 5]];
+const LEAST: [[u64; 2]; 3] = [[10, 10], [5, 10], [2, 5]];
 /// How many times as long as its longest answer yet took a core may think.
 const SLOWER: u32 = 10;
 /// Silences in a row after which a question is not asked again in its part of the suite.
@@ -48,14 +48,6 @@ struct Silences {
     kinds: BTreeMap<(String, String), Silence>,
 }
 
-/// Of a core that has never been asked.
-static NONE: Silences = Silences {
-    waited: Duration::ZERO,
-    longest: Duration::ZERO,
-    answered: BTreeSet::new(),
-    kinds: BTreeMap::new(),
-};
-
 /// Of one question in one part of the suite: the last one, and how many in a row.
 #[derive(Clone, Debug, Default)]
 struct Silence {
@@ -83,8 +75,8 @@ impl Patience {
 
     /// How long the core may think about a question.
     pub(super) fn limit(&self, question: &str, limits: &Limits) -> Duration {
-        let all = self.lock();
-        let Silences { longest, kinds, .. } = all.get(&self.core).unwrap_or(&NONE);
+        let mut all = self.lock();
+        let Silences { longest, kinds, .. } = all.entry(self.core.clone()).or_default();
         let place = match kinds.keys().any(|(_, known)| known == question) {
             true => 2,
             false => usize::from(!kinds.is_empty()),
@@ -207,11 +199,12 @@ mod tests {
         assert_eq!([limit("radiance"), limit("render")], [5 * SECOND, 10 * SECOND]);
         let of_quick = in_case(&Patience::default(), "shape/a");
         let of_any = in_case(&Patience::unhurried(), "shape/a");
+        let short = Limits { seconds: Some(10.0), ..Limits::default() };
         let after_silence = [of_quick, of_any].map(|patience| {
             patience.timed_out("radiance", 15 * SECOND);
-            patience.limit("radiance", &Limits::default())
+            ["radiance", "render"].map(|question| patience.limit(question, &short))
         });
-        assert_eq!(after_silence, [2 * SECOND, 5 * SECOND]);
+        assert_eq!(after_silence, [[2 * SECOND, 5 * SECOND], [5 * SECOND, 10 * SECOND]]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::stats::Stage;
 use crate::stats::plan::level::{CONFIRM_LEVEL, SCREEN_LEVEL};
 
 /// How often confirmations are looked at.
-const LOOKS: usize = 3;
+const LOOKS: usize = 4;
 
 /// What a picture is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,8 @@ pub struct ImageEffort {
     pub(crate) samples: u32,
     /// Runs of the screen: all that a correct core pays.
     pub(crate) screen_runs: u32,
-    /// Runs of each of two confirmations at each look at them. All looks but the last tell only of large cells.
+    /// Runs of each of two confirmations at each look at them. The first tells only of too much light, and all but the last
+    /// only of large cells.
     pub(crate) looks: [u32; LOOKS],
 }
 
@@ -24,13 +25,18 @@ impl ImageEffort {
     /// The effort that sees an error of `detects` of the whole picture, if the runs have samples
     /// enough.
     pub const fn new(detects: f64, samples: u32) -> Self {
-        Self { detects, samples, screen_runs: 16, looks: [8, 16, 32] }
+        Self { detects, samples, screen_runs: 16, looks: [4, 8, 16, 32] }
     }
 
     /// With half of the runs, for a first look, which fails no core.
     pub(crate) fn halved(self) -> Self {
         let looks = self.looks.map(|runs| runs / 2);
         Self { screen_runs: self.screen_runs / 2, looks, ..self }
+    }
+
+    /// The fewest runs of a confirmation.
+    pub(crate) const fn first_look(&self) -> u32 {
+        self.looks[0]
     }
 
     /// The most runs of a confirmation.

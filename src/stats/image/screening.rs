@@ -113,9 +113,10 @@ impl<'a, E> Screening<'a, E> {
                 let keys = [&second.scalars[i], &third.scalars[i]];
                 let known = self.known(i, frozen, [&second.spread, &third.spread]);
                 report.confirm(confirm(self.levels.of_a_look(), keys, known));
-                let is_light_missed = !frozen.is_too_bright() && self.samples(i, runs) < FEWEST;
-                tells |=
-                    report.rejects && report.scale.is_large() && (is_gross || !is_light_missed);
+                let is_known = frozen.is_too_bright()
+                    || runs > self.effort.first_look()
+                        && (is_gross || self.samples(i, runs) >= FEWEST);
+                tells |= report.rejects && report.scale.is_large() && is_known;
             }
             if tells {
                 break;

@@ -66,8 +66,8 @@ fn right_pictures_fail_no_oftener_than_the_levels_say() {
     let usual = EFFORT.looks;
     let rows = [(1e-3, 2e-5, usual), (0.05, 0.05, usual), (1.0, 0.05, usual), (1.0, 0.2, usual)];
     // As of gross errors, which are seen in no right picture.
-    let few = [EFFORT.looks[0]; 3];
-    let gross = [(1.0, 0.05, few), (1.0, 0.2, few)];
+    let few = [EFFORT.looks[0], EFFORT.looks[1]].map(|runs| EFFORT.looks.map(|_| runs));
+    let gross = few.into_iter().flat_map(|few| [(1.0, 0.05, few), (1.0, 0.2, few)]);
     for (screen, confirm, looks) in rows.into_iter().chain(gross) {
         let levels = Levels { screen, confirm };
         let effort = ImageEffort { looks, ..EFFORT };

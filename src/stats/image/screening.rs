@@ -24,9 +24,14 @@ const FEWEST: u64 = 131_072;
 
 struct Sampled {
     spread: Spread,
-    brightness: Brightness,
     /// Of each scale, the numbers of its frozen cells.
     scalars: Vec<Moments>,
+}
+
+impl Sampled {
+    fn of_scales(scales: usize) -> Self {
+        Self { spread: Spread::default(), scalars: vec![Moments::default(); scales] }
+    }
 }
 
 /// Renders the picture of a run, or the two that are compared.
@@ -79,34 +84,37 @@ impl<'a, E> Screening<'a, E> {
     }
 
     fn screen_and_confirm(&mut self) -> Result<ImageReport, Interrupted<E>> {
-        let mut screened = self.no_runs(0);
-        self.sample(&mut screened, Stage::First, self.effort.screen_runs / 2, &[])?;
+        let mut screened = Sampled::of_scales(0);
+        let mut bright = Brightness::of(self.size);
+        self.sample(&mut screened, &mut bright, Stage::First, self.effort.screen_runs / 2, &[])?;
         if !self.is_gross_all_over(&screened) {
-            self.sample(&mut screened, Stage::First, self.effort.screen_runs, &[])?;
+            self.sample(&mut screened, &mut bright, Stage::First, self.effort.screen_runs, &[])?;
         }
         let noise = self.noise(&screened, |_| true);
         let mut scales: Vec<ScaleReport> =
             (0..Scale::ALL.len()).map(|i| self.screen(i, &noise)).collect();
         if !scales.iter().any(ScaleReport::stands_out) && self.lit.suspects().is_empty() {
-            return Ok(self.report(scales, &screened, &screened));
+            return Ok(self.report(scales, &screened, &bright));
         }
         let frozen: Vec<Option<Frozen>> =
             (0..Scale::ALL.len()).map(|i| self.freeze(i, &noise)).collect();
-        let third = self.confirm(&mut scales, &frozen)?;
-        Ok(self.report(scales, &screened, &third))
+        let bright = self.confirm(&mut scales, &frozen)?;
+        Ok(self.report(scales, &screened, &bright))
     }
 
-    /// Draws both confirmations and looks at them, until a look tells; hands back the second of them.
+    /// Draws both confirmations and looks at them, until a look tells; hands back how bright both are: a few runs of one
+    /// know that too badly to tell causes apart.
     fn confirm(
         &mut self,
         scales: &mut [ScaleReport],
         frozen: &[Option<Frozen>],
-    ) -> Result<Sampled, Interrupted<E>> {
+    ) -> Result<Brightness, Interrupted<E>> {
         let is_gross = scales.iter().any(ScaleReport::is_gross);
-        let [mut second, mut third] = [(); 2].map(|()| self.no_runs(frozen.len()));
+        let [mut second, mut third] = [(); 2].map(|()| Sampled::of_scales(frozen.len()));
+        let mut bright = Brightness::of(self.size);
         for runs in self.effort.looks {
-            self.sample(&mut second, Stage::Second, runs, frozen)?;
-            self.sample(&mut third, Stage::Third, runs, frozen)?;
+            self.sample(&mut second, &mut bright, Stage::Second, runs, frozen)?;
+            self.sample(&mut third, &mut bright, Stage::Third, runs, frozen)?;
             let mut tells = runs == self.effort.confirm_runs();
             for (i, report) in scales.iter_mut().enumerate() {
                 let Some(frozen) = &frozen[i] else { continue };
@@ -122,7 +130,7 @@ impl<'a, E> Screening<'a, E> {
                 break;
             }
         }
-        Ok(third)
+        Ok(bright)
     }
 
     /// The larger of the standard errors that the frozen cells of a scale are known to have; nothing where they are too
@@ -142,18 +150,11 @@ impl<'a, E> Screening<'a, E> {
         pixels * u64::from(self.effort.samples) * u64::from(runs)
     }
 
-    fn no_runs(&self, scales: usize) -> Sampled {
-        Sampled {
-            spread: Spread::default(),
-            brightness: Brightness::of(self.size),
-            scalars: vec![Moments::default(); scales],
-        }
-    }
-
     /// Draws the runs that a stage lacks to so many.
     fn sample(
         &mut self,
         sampled: &mut Sampled,
+        bright: &mut Brightness,
         stage: Stage,
         runs: u32,
         frozen: &[Option<Frozen>],
@@ -166,7 +167,7 @@ impl<'a, E> Screening<'a, E> {
                 scalar.into_iter().for_each(|scalar| moments.push(scalar));
             }
             sampled.spread.push(&values);
-            sampled.brightness.push(&values);
+            bright.push(&values);
             self.all.push(&values[..COMPONENTS * self.size.0 * self.size.1]);
             self.runs += 1;
         }
@@ -267,7 +268,12 @@ impl<'a, E> Screening<'a, E> {
         }
     }
 
-    fn report(&self, scales: Vec<ScaleReport>, screened: &Sampled, last: &Sampled) -> ImageReport {
+    fn report(
+        &self,
+        scales: Vec<ScaleReport>,
+        screened: &Sampled,
+        bright: &Brightness,
+    ) -> ImageReport {
         let dead_pixels = self.lit.dead();
         let resolution = self.resolution(&screened.spread);
         let rejected = !dead_pixels.is_empty() || scales.iter().any(|scale| scale.rejects);
@@ -280,8 +286,8 @@ impl<'a, E> Screening<'a, E> {
             dead_pixels,
             worst_scale: worst_scale(&scales),
             scales,
-            ratios: last.brightness.ratios(&self.target),
-            parts: last.brightness.of_parts(&self.target),
+            ratios: bright.ratios(&self.target),
+            parts: bright.of_parts(&self.target),
             resolution,
             detects: self.effort.detects,
             runs: self.runs,

@@ -86,8 +86,7 @@ fn two_per_cent_everywhere_fail_and_are_measured() {
 }
 
 #[test]
-fn grossly_too_much_light_takes_no_more_runs_than_it_takes_to_pass_and_too_little_half_as_many_again()
- {
+fn far_too_much_light_takes_as_many_runs_as_a_pass_and_too_little_half_as_many_more() {
     for (gain, runs) in [(2.0, 16), (0.5, 24), (0.0, 24)] {
         let report = judge(&with_gain(|_, _| gain), 1);
         assert_eq!((report.verdict, report.runs), (Verdict::Fail, runs), "{gain}");

@@ -16,8 +16,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What was asked: which case, with what of the bench, and how.
 type Asked = (usize, Components, Look);
-/// Whether a case passes; none where it could not be asked. And its price.
-type Answer = (Option<bool>, u64);
+#[derive(Clone, Copy, Debug)]
+struct Answer {
+    /// Whether the case passes; none where that is not known.
+    passes: Option<bool>,
+    /// What it took, in the work of a purse.
+    price: u64,
+}
 
 /// How a case is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,9 +34,9 @@ enum Look {
     Anew,
 }
 
-/// Whether cases pass; none of those that could not be asked.
+/// What is known of cases.
 #[derive(Debug, Default)]
-struct Known(BTreeMap<Asked, Option<bool>>);
+struct Known(BTreeMap<Asked, Answer>);
 
 impl Known {
     /// What came of it, or of asking with less or with more: what passes with some components passes with others beside
@@ -44,13 +49,13 @@ impl Known {
             looks.filter(move |((.., other), _)| *other == look)
         };
         let follows = || {
-            of_case().find_map(|((_, other, _), passes)| match passes {
+            of_case().find_map(|((_, other, _), answer)| match answer.passes {
                 Some(true) if with.contains(*other) => Some(Some(true)),
                 Some(false) if other.contains(with) => Some(Some(false)),
                 _ => None,
             })
         };
-        let asked_so = self.0.get(asked).copied();
+        let asked_so = self.0.get(asked).map(|answer| answer.passes);
         if look == Look::Anew { asked_so } else { asked_so.or_else(follows) }
     }
 }
@@ -119,16 +124,26 @@ impl<'a> Again<'a> {
         Tried { passing: of(true), failing: of(false) }
     }
 
-    /// What a case may take when it is tried again.
+    /// What a case may take when it is tried again. A picture has a sample a pixel, at a glance as well: its price is what it
+    /// took so.
     pub(super) fn price(&self, number: usize) -> u64 {
+        let record = self.failing[number].1;
         let look = if self.is_rough(number) { &self.glancing } else { &self.closely };
-        (price(self.failing[number].1) as f64 / self.times_coarser(look).powi(2)) as u64
+        let expected = (price(record) as f64 / self.times_coarser(look).powi(2)) as u64;
+        let glance = (number, Components::empty(), Look::Glance);
+        match record.outcome.finding().is_some_and(is_of_picture) {
+            true => self.known().0.get(&glance).map_or(expected, |taken| taken.price.max(expected)),
+            false => expected,
+        }
     }
 
     /// Asks what is not known, for as much as can be paid.
     fn ask(&self, all: &[Asked]) {
         let new: Vec<_> = all.iter().filter(|asked| self.known().answer(asked).is_none()).collect();
-        let answers = self.purse.pay_each(self.jobs, new.len(), &|place| self.answer(*new[place]));
+        let answers = self.purse.pay_each(self.jobs, new.len(), &|place| {
+            let answer = self.answer(*new[place]);
+            (answer, answer.price)
+        });
         self.known().0.extend(new.into_iter().copied().zip(answers));
     }
 
@@ -136,7 +151,7 @@ impl<'a> Again<'a> {
         let (trial, record) = self.failing[number];
         if !with.is_empty() && record.with.contains(with) {
             // So it was tried in the run.
-            return (Some(false), 0);
+            return Answer { passes: Some(false), price: 0 };
         }
         let bench = match look {
             Look::Glance => &self.glancing,
@@ -151,11 +166,9 @@ impl<'a> Again<'a> {
             Status::TimedOut if !was_silent => None,
             // It may have failed for what the core did not take after all.
             _ if !own.is_empty() => None,
-            // With these it cannot be asked.
-            Status::Skipped | Status::Blocked | Status::Broken => None,
-            ended => Some(ended == Status::Pass),
+            ended => passes(ended),
         };
-        (passes, price(&ended))
+        Answer { passes, price: price(&ended) }
     }
 
     /// Whether the failure would be seen by such a look.
@@ -197,6 +210,19 @@ impl Tries for Again<'_> {
     }
 }
 
+/// Whether a case passes that ended so; none where with these components it cannot be asked, or cannot be judged with so few
+/// samples.
+fn passes(ended: Status) -> Option<bool> {
+    match ended {
+        Status::Skipped | Status::Blocked | Status::Broken | Status::Inconclusive => None,
+        ended => Some(ended == Status::Pass),
+    }
+}
+
+fn is_of_picture(finding: &Finding) -> bool {
+    finding.failed_measures().any(|measure| measure.unit == STANDARD_ERRORS)
+}
+
 /// Whether something is so wrong that it would still fail were its error and its noise that many times as large as what is
 /// seen of them.
 pub(in crate::run) fn is_gross(finding: &Finding, coarser: f64) -> bool {
@@ -226,15 +252,23 @@ mod tests {
         const BOX: Components = Components::BOX_TEST;
         let both = BOX | Components::BSDF;
         let mut known = Known::default();
-        known.0.insert((1, BOX, Look::Glance), Some(true));
+        let of = |passes: bool| Answer { passes: Some(passes), price: 0 };
+        known.0.insert((1, BOX, Look::Glance), of(true));
         assert_eq!(known.answer(&(1, both, Look::Glance)), Some(Some(true)));
         assert_eq!(known.answer(&(1, Components::BSDF, Look::Glance)), None);
         assert_eq!(known.answer(&(1, both, Look::Closely)), None);
         assert_eq!(known.answer(&(2, both, Look::Glance)), None);
-        known.0.insert((3, both, Look::Closely), Some(false));
-        known.0.insert((3, both, Look::Anew), Some(false));
+        known.0.insert((3, both, Look::Closely), of(false));
+        known.0.insert((3, both, Look::Anew), of(false));
         assert_eq!(known.answer(&(3, BOX, Look::Closely)), Some(Some(false)));
         assert_eq!(known.answer(&(3, BOX, Look::Anew)), None);
+    }
+
+    #[test]
+    fn what_is_too_noisy_to_be_judged_is_no_failure_of_what_was_taken() {
+        assert_eq!(passes(Status::Inconclusive), None);
+        assert_eq!(passes(Status::Crashed), Some(false));
+        assert_eq!(passes(Status::Pass), Some(true));
     }
 
     #[test]

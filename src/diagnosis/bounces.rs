@@ -43,9 +43,10 @@ fn explain(evidence: &Evidence<'_>, role: Role) -> Vec<Suspicion> {
         beside: false,
     };
     if fitting.is_empty() {
-        let factor = furnace.constant_factor(case, evidence);
-        let factor = factor.or_else(|| furnace.factor_once(case, evidence));
-        return factor.or_else(|| furnace.lost_ways(case)).into_iter().collect();
+        let told = furnace.no_indirect(case, evidence);
+        let told = told.or_else(|| furnace.constant_factor(case, evidence));
+        let told = told.or_else(|| furnace.factor_once(case, evidence));
+        return told.or_else(|| furnace.lost_ways(case)).into_iter().collect();
     }
     fitting.iter().map(told).collect()
 }
@@ -198,6 +199,27 @@ impl Furnace {
         refuted.take(2).collect()
     }
 
+    /// No light from the second bounce on and all that is direct, beside sums that are wrong in another way, too.
+    fn no_indirect(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
+        let of = |indirect: bool| {
+            let isolated = self.rows.iter().filter(|row| row.is_isolated());
+            let rows = isolated.filter(move |row| (row.bounces[0] > 1) == indirect);
+            rows.flat_map(|row| row.readings).flatten()
+        };
+        let direct_is_right = of(false).all(|reading| reading.admits(1.0));
+        let is_dark =
+            of(true).next().is_some() && of(true).all(|r| r.ratio == 0.0 && r.admits(0.0));
+        (direct_is_right && is_dark).then(|| Suspicion {
+            cause: &integrator::NO_INDIRECT,
+            cases: fitting_too(evidence, case, |_| [0.0; 2]),
+            evidence: vec![self.table(), "from bounce 2 on there is nothing".to_owned()],
+            ruled_out: Vec::new(),
+            weight: SHARED,
+            degree: Degree::LooksLike,
+            beside: false,
+        })
+    }
+
     /// One grey factor for every indirect bounce, if all isolated bounces agree on it and it is not 1.
     fn constant_factor(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
         let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
@@ -218,7 +240,7 @@ impl Furnace {
             }
         }
         let [low, high] = interval;
-        let is_wrong = high < 1.0 || 1.0 < low;
+        let is_wrong = 0.0 < low && (high < 1.0 || 1.0 < low);
         (most > 2 && low <= high && high.is_finite() && is_wrong).then(|| {
             let cases =
                 fitting_too(evidence, case, |bounce| interval.map(|f| f.powi(indirect(bounce))));
@@ -466,6 +488,19 @@ mod tests {
         let diagnosis = diagnose(&Made::new().with(FURNACES[0], furnace(once)).evidence());
         let seen = &diagnosis.headlines[0].evidence[0];
         assert!(seen.contains("1: 1 1 1 · 2: 1.0061 1.0061 1.0061"), "{seen}");
+    }
+
+    #[test]
+    fn indirect_light_that_is_not_there_is_no_factor_whatever_the_sums_lack() {
+        let of_two_mistakes = |c: &Channel, [first, last]: [u32; 2]| {
+            let first = if first < last { first.max(1) } else { first };
+            c.sum([first, last], |k| if k < 2 { 1.0 } else { 0.0 })
+        };
+        let made = Made::new().with(FURNACES[0], furnace(of_two_mistakes));
+        let diagnosis = diagnose(&made.evidence());
+        let headline = &diagnosis.headlines[0];
+        assert_eq!(headline.cause, integrator::NO_INDIRECT.name);
+        assert_eq!(headline.degree, Degree::LooksLike);
     }
 
     #[test]

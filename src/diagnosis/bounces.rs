@@ -201,18 +201,16 @@ impl Furnace {
 
     /// No light from the second bounce on and all that is direct, beside sums that are wrong in another way, too.
     fn no_indirect(&self, case: &str, evidence: &Evidence<'_>) -> Option<Suspicion> {
-        let of = |indirect: bool| {
-            let isolated = self.rows.iter().filter(|row| row.is_isolated());
-            let rows = isolated.filter(move |row| (row.bounces[0] > 1) == indirect);
-            rows.flat_map(|row| row.readings).flatten()
-        };
-        let direct_is_right = of(false).all(|reading| reading.admits(1.0));
-        let is_dark =
-            of(true).next().is_some() && of(true).all(|r| r.ratio == 0.0 && r.admits(0.0));
-        (direct_is_right && is_dark).then(|| Suspicion {
-            cause: &integrator::NO_INDIRECT,
+        let law = LAWS.iter().find(|law| law.cause == &integrator::NO_INDIRECT)?;
+        let isolated = || self.rows.iter().filter(|row| row.is_isolated());
+        let indirect = || isolated().filter(|row| row.bounces[0] > 1);
+        let mut light = indirect().flat_map(|row| row.readings).flatten().peekable();
+        let is_dark = light.peek().is_some() && light.all(|reading| reading.ratio == 0.0);
+        let fits = isolated().all(|row| self.row_admits(row, &law.predict));
+        (is_dark && fits).then(|| Suspicion {
+            cause: law.cause,
             cases: fitting_too(evidence, case, |_| [0.0; 2]),
-            evidence: vec![self.table(), "from bounce 2 on there is nothing".to_owned()],
+            evidence: vec![self.table(), law.words.to_owned()],
             ruled_out: Vec::new(),
             weight: SHARED,
             degree: Degree::LooksLike,

@@ -1,6 +1,7 @@
 //! The failing cases of a core, tried again with components of the bench: at a glance where that is enough, and never twice.
 
 use super::{Tried, Tries};
+use crate::case::Subject;
 use crate::checks::{Finding, Measure, STANDARD_ERRORS};
 use crate::contract::Components;
 use crate::run::attempt::run_taking;
@@ -16,6 +17,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// What was asked: which case, with what of the bench, and how.
 type Asked = (usize, Components, Look);
+
+/// What came of it.
 #[derive(Clone, Copy, Debug)]
 struct Answer {
     /// Whether the case passes; none where that is not known.
@@ -131,9 +134,11 @@ impl<'a> Again<'a> {
         let look = if self.is_rough(number) { &self.glancing } else { &self.closely };
         let expected = (price(record) as f64 / self.times_coarser(look).powi(2)) as u64;
         let glance = (number, Components::empty(), Look::Glance);
-        match record.outcome.finding().is_some_and(is_of_picture) {
-            true => self.known().0.get(&glance).map_or(expected, |taken| taken.price.max(expected)),
-            false => expected,
+        match Subject::of_case(&record.case) {
+            Some(Subject::Image) => {
+                self.known().0.get(&glance).map_or(expected, |taken| taken.price.max(expected))
+            }
+            _ => expected,
         }
     }
 
@@ -217,10 +222,6 @@ fn passes(ended: Status) -> Option<bool> {
         Status::Skipped | Status::Blocked | Status::Broken | Status::Inconclusive => None,
         ended => Some(ended == Status::Pass),
     }
-}
-
-fn is_of_picture(finding: &Finding) -> bool {
-    finding.failed_measures().any(|measure| measure.unit == STANDARD_ERRORS)
 }
 
 /// Whether something is so wrong that it would still fail were its error and its noise that many times as large as what is

@@ -14,6 +14,9 @@ use std::ops::Range;
 /// Red, green, blue and luminance.
 pub(crate) const COMPONENTS: usize = 4;
 
+/// The place of [`Scale::Tile8`] among the scales.
+pub(super) const TILES: usize = 1;
+
 /// What of a pixel is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Component {
@@ -156,6 +159,20 @@ impl Grid {
         means.iter().enumerate().map(|(i, m)| (m * count[i / COMPONENTS]).sqrt()).collect()
     }
 
+    /// The number of the cell that a pixel lies in.
+    pub(super) fn cell_of(&self, [x, y]: [usize; 2]) -> usize {
+        y / self.cell.1 * self.columns + x / self.cell.0
+    }
+
+    /// What the pixels of each cell weigh together.
+    fn totals(&self, weights: &[f64]) -> Vec<f64> {
+        let mut totals = vec![0.0; self.len()];
+        for (cell, pixels) in self.stretches() {
+            totals[cell] += weights[pixels].iter().sum::<f64>();
+        }
+        totals
+    }
+
     /// Σ w² / (Σ w)² of each cell.
     fn weight_ratio(&self, weights: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.len()];
@@ -215,6 +232,19 @@ impl Cells {
     /// The standard errors of all cells, from those of the pixels.
     pub(super) fn standard_errors(&self, errors: &Image) -> Vec<f64> {
         self.grids.iter().flat_map(|grid| grid.standard_errors(&self.weights, errors)).collect()
+    }
+
+    /// Of each tile of 8 by 8 pixels, the cell of a large scale that it lies in, and the share of that cell's weight which
+    /// is the tile's.
+    pub(super) fn tiles_in(&self, scale: usize) -> Vec<(usize, f64)> {
+        let (tiles, grid) = (&self.grids[TILES], &self.grids[scale]);
+        let [of_tiles, of_cells] = [tiles, grid].map(|grid| grid.totals(&self.weights));
+        let place = |tile: usize| {
+            let extent = tiles.extent(tile);
+            let cell = grid.cell_of([extent.x, extent.y]);
+            (cell, of_tiles[tile] / of_cells[cell])
+        };
+        (0..tiles.len()).map(place).collect()
     }
 
     /// Where the values of each scale lie among all.

@@ -9,6 +9,7 @@ mod comparison;
 mod dead_pixels;
 mod difference;
 mod draw;
+mod lack;
 pub(crate) mod misfit;
 mod report;
 mod screen;

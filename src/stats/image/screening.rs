@@ -5,6 +5,7 @@ use super::cell_noise::{CellNoise, known_of_frozen};
 use super::cells::{COMPONENTS, Component, Scale};
 use super::dead_pixels::LitRuns;
 use super::draw::{ImageDraw, ImageEffort, Levels};
+use super::lack::pixels_that_lack;
 use super::report::{
     CellScore, Confirmation, ImageReport, Impossible, ImpossiblePixels, ScaleReport,
 };
@@ -19,7 +20,8 @@ use crate::stats::{Moments, Stage, Verdict, normal_upper, student_upper};
 const MOST_FROZEN: usize = 64;
 /// Cells of a scale that are reported.
 const MOST_REPORTED: usize = 256;
-/// Samples of a cell in each of two confirmations that hardly all miss what light there is: as many tell of a mean.
+/// Samples of a cell in each of two confirmations, or of all runs where it lacks light, that hardly all miss what light
+/// there is: one in 10,000 that finds it is missed by all with probability 2e-6.
 const FEWEST: u64 = 131_072;
 
 struct Sampled {
@@ -133,13 +135,22 @@ impl<'a, E> Screening<'a, E> {
         Ok(bright)
     }
 
-    /// The larger of the standard errors that the frozen cells of a scale are known to have; nothing where they are too
-    /// bright, which no light that is missed can make them.
+    /// The larger of the standard errors that the frozen cells of a scale are known to have: nothing where they are too
+    /// bright, which no light that is missed can make them, and all where too few samples fell where large cells lack
+    /// light.
     fn known(&self, scale: usize, frozen: &Frozen, confirmations: [&Spread; 2]) -> f64 {
         if frozen.is_too_bright() {
             return 0.0;
         }
         let samples = self.effort.samples;
+        if Scale::ALL[scale].is_large() {
+            let pixels = pixels_that_lack(frozen, confirmations, &self.target, scale);
+            let seen = pixels * f64::from(samples) * f64::from(self.runs);
+            let is_enough = seen >= FEWEST as f64;
+            if !is_enough {
+                return f64::INFINITY;
+            }
+        }
         let known = |spread| known_of_frozen(frozen, spread, &self.target, scale, samples);
         confirmations.map(known).into_iter().fold(0.0, f64::max)
     }

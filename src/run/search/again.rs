@@ -120,11 +120,11 @@ impl<'a> Again<'a> {
     fn seen(&self, asked: Vec<Asked>) -> Tried {
         self.ask(&asked);
         let known = self.known();
-        let of = |wanted: bool| {
-            let told = asked.iter().filter(|asked| known.answer(asked) == Some(Some(wanted)));
+        let of = |wanted: Option<bool>| {
+            let told = asked.iter().filter(|asked| known.answer(asked) == Some(wanted));
             told.map(|(case, ..)| *case).collect()
         };
-        Tried { passing: of(true), failing: of(false) }
+        Tried { passing: of(Some(true)), failing: of(Some(false)), unknown: of(None) }
     }
 
     /// What a case may take when it is tried again. A picture has a sample a pixel, at a glance as well: its price is what it

@@ -147,11 +147,13 @@ fn affordable(prices: &[u64], left: u64) -> usize {
     costs.take_while(|cost| *cost <= left / 2).count().max(1)
 }
 
-/// What came of trying some cases; those that could not be paid are in neither.
+/// What came of trying some cases; those that could not be paid are in none.
 #[derive(Debug, Default)]
 struct Tried {
     passing: Vec<usize>,
     failing: Vec<usize>,
+    /// What ended without telling whether it passes.
+    unknown: Vec<usize>,
 }
 
 /// Tries cases with these components.
@@ -180,7 +182,7 @@ impl Found {
     fn try_on(&mut self, order: &[Components], cases: &[usize], try_cases: Try<'_>) -> Vec<usize> {
         self.set.sort_by_key(|part| part.component.bits());
         let set: Vec<_> = self.set.iter().map(|part| part.component).collect();
-        let Tried { passing, failing: mut others } =
+        let Tried { passing, failing: mut others, .. } =
             try_cases(set.iter().copied().collect(), cases);
         if set.is_empty() {
             // What passes with nothing of the bench fails only at times, and needs nothing of it.
@@ -222,15 +224,17 @@ impl Found {
         self.cases().count()
     }
 
-    /// Leaves out the cases that fail with the whole set when `prove` looks, and answers them.
+    /// Leaves out the cases that fail with the whole set when `prove` looks, and answers them; and those of which it does
+    /// not know.
     fn without_spoiled(&mut self, prove: Try<'_>) -> Vec<usize> {
         let set = self.set.iter().map(|part| part.component).collect();
-        let spoiled = prove(set, &Vec::from_iter(self.cases())).failing;
+        let Tried { failing, unknown, .. } = prove(set, &Vec::from_iter(self.cases()));
+        let stays = |case: &usize| !failing.contains(case) && !unknown.contains(case);
         for part in &mut self.set {
-            part.alone.retain(|case| !spoiled.contains(case));
-            part.together.retain(|case| !spoiled.contains(case));
+            part.alone.retain(stays);
+            part.together.retain(stays);
         }
-        spoiled
+        failing
     }
 }
 
@@ -282,13 +286,13 @@ fn smallest(takes: Components, failures: &Failures<'_>, try_cases: Try<'_>) -> F
     let rest = of_what_they_ask(&order, rest, &|_| known, try_cases, &mut found);
     let mut rest = rest;
     let late = rest.split_off((failures.affordable)(&rest).min(rest.len()));
-    let Tried { passing, failing: unmended } = try_cases(takes, &rest);
+    let Tried { passing, failing: unmended, .. } = try_cases(takes, &rest);
     let mut lowest = Vec::new();
     halve(&order, 0..order.len(), passing, try_cases, &mut lowest);
     let mut beside = Components::empty();
     for (place, cases) in lowest {
         let component = order[place];
-        let Tried { passing: alone, failing: with_others } = try_cases(component, &cases);
+        let Tried { passing: alone, failing: with_others, .. } = try_cases(component, &cases);
         beside |= needed(below(&order, component), component, &with_others, try_cases);
         found.push(Needed { component, alone, with_others });
     }
@@ -325,7 +329,7 @@ fn without_needless(mut found: Vec<Needed>, try_cases: Try<'_>) -> Vec<Needed> {
 /// What mends all that was found at once.
 fn together(set: Components, found: &[Needed], try_cases: Try<'_>) -> Vec<Mending> {
     let all: Vec<_> = found.iter().flat_map(Needed::cases).collect();
-    let Tried { passing, failing: spoiled } = try_cases(set, &all);
+    let Tried { passing, failing: spoiled, .. } = try_cases(set, &all);
     // Where there is no time left for all together, what was seen alone stands.
     let stands = |of: &Needed, case: usize| {
         passing.contains(&case) || of.alone.contains(&case) && !spoiled.contains(&case)
@@ -398,7 +402,7 @@ fn halve(
         _ => {
             let middle = range.start + range.len() / 2;
             let lower = order[..middle].iter().copied().collect();
-            let Tried { passing, failing } = try_cases(lower, &cases);
+            let Tried { passing, failing, .. } = try_cases(lower, &cases);
             halve(order, range.start..middle, passing, try_cases, found);
             halve(order, middle..range.end, failing, try_cases, found);
         }
@@ -451,7 +455,7 @@ mod tests {
         |with, cases| {
             let passes = |case: &usize| needs[*case].is_some_and(|needs| with.contains(needs));
             let (passing, failing) = cases.iter().partition(|case| passes(case));
-            Tried { passing, failing }
+            Tried { passing, failing, ..Tried::default() }
         }
     }
 
@@ -489,7 +493,7 @@ mod tests {
                 _ => with.contains(EMISSION),
             };
             let (passing, failing) = cases.iter().partition(|case| passes(case));
-            Tried { passing, failing }
+            Tried { passing, failing, ..Tried::default() }
         };
         let asks = |case: usize| [LIGHTS, LIGHTS, EMISSION, EMISSION, EMISSION, BOX][case];
         let turns = [(0..6).collect(), Vec::new()];
@@ -530,7 +534,7 @@ mod tests {
         let mut try_cases = |with: Components, cases: &[usize]| {
             let passes = |case: &usize| needs[*case].iter().any(|one| with.contains(*one));
             let (passing, failing) = cases.iter().partition(|case| passes(case));
-            Tried { passing, failing }
+            Tried { passing, failing, ..Tried::default() }
         };
         let asks = |case: usize| if case == 0 { PIXEL } else { Components::empty() };
         let turns = [vec![0, 1, 2], Vec::new()];
@@ -581,7 +585,7 @@ mod tests {
         let mut try_cases = |_: Components, cases: &[usize]| {
             tries += 1;
             let passing = if tries == 1 { cases.to_vec() } else { Vec::new() };
-            Tried { passing, failing: Vec::new() }
+            Tried { passing, ..Tried::default() }
         };
         let turns = [(0..4).collect(), Vec::new()];
         let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 4 };
@@ -593,7 +597,7 @@ mod tests {
     fn what_is_left_and_passes_with_nothing_taken_has_no_component() {
         let mut try_cases = |_: Components, cases: &[usize]| {
             let (passing, failing) = cases.iter().partition(|case| **case == 1);
-            Tried { passing, failing }
+            Tried { passing, failing, ..Tried::default() }
         };
         let turns = [vec![0, 1], Vec::new()];
         let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 1 };
@@ -645,5 +649,19 @@ mod tests {
         assert_eq!(counts(&found), [(BOX, 2, 2), (PATH, 0, 1)]);
         assert_eq!(found.without_spoiled(&mut trying(&closely)), [0]);
         assert_eq!(counts(&found), [(BOX, 1, 1), (PATH, 0, 1)]);
+    }
+
+    #[test]
+    fn what_no_proof_can_judge_is_neither_gone_nor_staying() {
+        let turns = [vec![0, 1], Vec::new()];
+        let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
+        let needs = [BOX, BOX].map(Some);
+        let mut found = smallest(Components::all(), &failures, &mut trying(&needs));
+        let mut noisy = |_: Components, cases: &[usize]| {
+            let (passing, unknown) = cases.iter().partition(|case| **case == 0);
+            Tried { passing, unknown, ..Tried::default() }
+        };
+        assert_eq!(found.without_spoiled(&mut noisy), Vec::<usize>::new());
+        assert_eq!((counts(&found), found.unmended), (vec![(BOX, 1, 1)], Vec::new()));
     }
 }

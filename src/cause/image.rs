@@ -73,7 +73,7 @@ causes! {
         fix "Count a sample where it is added to the pixel.";
     UPSIDE_DOWN = "picture-upside-down":
         "the image is upside down",
-        at "the step from a pixel's row to the film's y, or the order of rows in the film",
+        at "the step from a pixel's row to the film's y, the order of rows in the film, or the camera's up axis",
         fix "Row 0 is the top of the image, and the film's y grows upwards: y = 1 − (row + v)/height.";
     MIRRORED = "picture-mirrored":
         "the image is mirrored: left and right are swapped",

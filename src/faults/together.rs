@@ -3,7 +3,7 @@
 
 use super::{Fault, Matrix};
 use crate::case::Case;
-use crate::cause::Cause;
+use crate::cause::{Cause, camera, image};
 use crate::checks::Measure;
 use crate::contract::Components;
 use crate::cores::CoreSpec;
@@ -12,6 +12,9 @@ use crate::diagnosis::{Degree, Headline};
 use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Plan, Request, Status, TrialRecord, investigate, run_with};
 use std::time::Instant;
+
+/// Mistakes of a camera's rays, and those of the film that show the same picture.
+const SAME_PICTURE: [(&Cause, &Cause); 1] = [(&camera::FILM_Y_DOWN, &image::UPSIDE_DOWN)];
 
 /// What came of a core with several faults.
 #[derive(Clone, Debug)]
@@ -79,8 +82,11 @@ impl Matrix {
         let trials = investigate(&plan, &mut record);
         let headlines = record.diagnosis.unwrap_or_default().headlines;
         Some(Together {
-            faults: faults.iter().map(|f| (f.name.to_owned(), degree_of(f, &headlines))).collect(),
-            told: headlines.iter().filter_map(|told| of_headline(told, faults)).collect(),
+            faults: faults
+                .iter()
+                .map(|f| (f.name.to_owned(), self.degree(f, &headlines)))
+                .collect(),
+            told: headlines.iter().filter_map(|told| self.told(told, faults)).collect(),
             askable: ended(&trials, |status| status != Status::Skipped),
             judged: ended(&trials, |s| s != Status::Skipped && s != Status::Blocked),
             seconds: clock.elapsed().as_secs_f64(),
@@ -103,26 +109,34 @@ impl Matrix {
         spec.parse().ok()
     }
 
+    fn degree(&self, fault: &Fault, headlines: &[Headline]) -> String {
+        let of_fault = headlines.iter().filter(|told| self.is_fault(told, fault));
+        let degree = of_fault.map(|told| told.degree).max();
+        degree.map_or_else(String::new, |degree| degree.word().to_owned())
+    }
+
+    fn told(&self, headline: &Headline, faults: &[&Fault]) -> Option<Told> {
+        (headline.degree > Degree::DiffersHere).then(|| Told {
+            cause: headline.cause.clone(),
+            degree: headline.degree.word().to_owned(),
+            is_there: faults.iter().any(|fault| self.is_fault(headline, fault)),
+            explains: headline.explains.clone(),
+        })
+    }
+
+    /// Whether a headline tells of this fault, as far as what was asked can tell it from others.
+    fn is_fault(&self, headline: &Headline, fault: &Fault) -> bool {
+        let is_told = |cause: &Cause| cause.name == headline.cause;
+        let sees_rays = self.chooses.is_none();
+        let mut same = SAME_PICTURE.into_iter().filter(|(of_rays, _)| *of_rays == fault.cause);
+        is_told(fault.cause) || !sees_rays && same.any(|(_, of_film)| is_told(of_film))
+    }
+
     fn plan(&self, core: CoreSpec) -> Option<Plan> {
         let (cores, budget, jobs) = (vec![core], self.budget, self.jobs);
         let request = Request { cores, budget, jobs, ..Request::default() };
         Plan::new(self.project.clone(), request, &self.cases).ok()
     }
-}
-
-fn degree_of(fault: &Fault, headlines: &[Headline]) -> String {
-    let of_fault = headlines.iter().filter(|told| told.cause == fault.cause.name);
-    of_fault.map(|told| told.degree).max().map_or_else(String::new, |d| d.word().to_owned())
-}
-
-fn of_headline(headline: &Headline, faults: &[&Fault]) -> Option<Told> {
-    let is_cause = |cause: &Cause| cause.name == headline.cause;
-    (headline.degree > Degree::DiffersHere).then(|| Told {
-        cause: headline.cause.clone(),
-        degree: headline.degree.word().to_owned(),
-        is_there: faults.iter().any(|fault| is_cause(fault.cause)),
-        explains: headline.explains.clone(),
-    })
 }
 
 fn ended(trials: &[TrialRecord], wanted: impl Fn(Status) -> bool) -> usize {

@@ -30,8 +30,37 @@ const LEAST_FOR_EACH: u64 = 20;
 /// The same where images alone fail: every mistake is put to one of them.
 const LEAST_BY_IMAGES: u64 = 150;
 
-/// What was asked: the core, the case, what was the bench's own, and whether a first look is enough.
-type Asked = (String, String, Components, bool);
+/// What was asked.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Asked {
+    core: String,
+    case: String,
+    /// What was the bench's own.
+    with: Components,
+    /// Whether a first look is enough.
+    roughly: bool,
+    /// Whether a pixel has to have as many samples as the core's.
+    counts_samples: bool,
+}
+
+impl Asked {
+    fn of(question: &Question<'_>) -> Self {
+        let is_image = Subject::of_case(question.case) == Some(Subject::Image);
+        let is_of_pixels = |mistake: &Mistake| mistake.components.intersects(Components::PIXEL);
+        Self {
+            core: format!("{TEXTBOOK}:{}", joined(&question.mistakes)),
+            case: question.case.to_owned(),
+            with: question.with,
+            roughly: question.roughly,
+            counts_samples: is_image && question.mistakes.iter().any(is_of_pixels),
+        }
+    }
+
+    /// The same of the right core.
+    fn without_mistakes(&self) -> Self {
+        Self { core: TEXTBOOK.to_owned(), ..self.clone() }
+    }
+}
 
 /// A mistake that some case is known to catch: planted, it fails that case (`tests/faults.rs`).
 pub(crate) struct Excluded {
@@ -88,6 +117,8 @@ pub(super) struct PlantedFaults<'a> {
     as_the_core: Looks,
     /// As a quick run asks.
     quickly: Looks,
+    /// The same with as many samples a pixel as the core had.
+    counting_samples: Looks,
     mistakes: Vec<Mistake>,
     purse: Purse,
     known: Mutex<BTreeMap<Asked, Option<Finding>>>,
@@ -136,6 +167,8 @@ impl<'a> PlantedFaults<'a> {
         let quick = Allowance { budget: Budget::Quick, ..allowance };
         // Asked as a strict run asks, a right core may need longer than a search waits.
         let quickly = Looks::of(&without_patience(bench), quick);
+        let counting = Allowance { of_a_pixel: Some(bench.allowance.budget), ..quick };
+        let counting_samples = Looks::of(&without_patience(bench), counting);
         let coarser = |look: &Bench| look.allowance.coarseness() / allowance.coarseness();
         let failing = |is_so: &dyn Fn(&Finding) -> bool| {
             let so = records.clone().filter(|record| record.outcome.finding().is_some_and(is_so));
@@ -149,6 +182,7 @@ impl<'a> PlantedFaults<'a> {
             glaring: failing(&|seen| is_gross(seen, coarser(&quickly.roughly))),
             as_the_core: Looks::of(bench, allowance),
             quickly,
+            counting_samples,
             mistakes,
             purse: Purse::of_share(SHARE, least(records.clone(), broken), records),
             known: Mutex::default(),
@@ -159,11 +193,10 @@ impl<'a> PlantedFaults<'a> {
 
     /// Tries what was asked, and says what it took.
     fn try_out(&self, asked: &Asked) -> (Option<Finding>, u64) {
-        let (_, case, _, roughly) = asked;
-        if !*roughly {
+        if !asked.roughly {
             return self.run(asked, |looks| &looks.closely);
         }
-        let (is_changed, glanced) = match Subject::of_case(case) {
+        let (is_changed, glanced) = match Subject::of_case(&asked.case) {
             Some(Subject::Image) => self.changes_the_picture(asked),
             _ => (true, 0),
         };
@@ -180,7 +213,7 @@ impl<'a> PlantedFaults<'a> {
     /// fails it. The right one is free: how often it is asked at once is chance.
     fn changes_the_picture(&self, asked: &Asked) -> (bool, u64) {
         let [(with, price), (without, _)] =
-            [asked, &without_mistakes(asked)].map(|asked| self.glance(asked));
+            [asked, &asked.without_mistakes()].map(|asked| self.glance(asked));
         (with != without, price)
     }
 
@@ -197,7 +230,7 @@ impl<'a> PlantedFaults<'a> {
 
     /// What comes of a first look without mistakes.
     fn of_the_right_core(&self, asked: &Asked) -> Option<Finding> {
-        let asked = without_mistakes(asked);
+        let asked = asked.without_mistakes();
         if let Some(known) = self.known().get(&asked) {
             return known.clone();
         }
@@ -207,19 +240,20 @@ impl<'a> PlantedFaults<'a> {
     }
 
     /// Mistakes that exclude each other, those that take too long, and cases that were not selected, have no answer.
-    fn run(
-        &self,
-        (core, case, with, _): &Asked,
-        look: fn(&Looks) -> &Bench,
-    ) -> (Option<Finding>, u64) {
+    fn run(&self, asked: &Asked, look: fn(&Looks) -> &Bench) -> (Option<Finding>, u64) {
+        let Asked { core, case, with, counts_samples, .. } = asked;
         if self.silent().contains(core) {
             return (None, 0);
         }
         let case = self.plan.trials.iter().find(|trial| trial.case.id == *case);
         let (Some(case), Ok(spec)) = (case, core.parse()) else { return (None, 0) };
         let trial = Trial { case: Arc::clone(&case.case), core: spec };
-        let is_subtle = self.subtle.contains(&trial.case.id);
-        let bench = look(if is_subtle { &self.as_the_core } else { &self.quickly });
+        let looks = match self.subtle.contains(&trial.case.id) {
+            true => &self.as_the_core,
+            false if *counts_samples => &self.counting_samples,
+            false => &self.quickly,
+        };
+        let bench = look(looks);
         let ended = run_with(bench, &trial, *with).record;
         if ended.outcome.status() == Status::TimedOut {
             self.silent().insert(core.clone());
@@ -262,16 +296,6 @@ fn least<'r>(records: impl Iterator<Item = &'r TrialRecord> + Clone, broken: usi
     }
 }
 
-/// The same of the right core.
-fn without_mistakes((_, case, with, roughly): &Asked) -> Asked {
-    (TEXTBOOK.to_owned(), case.clone(), *with, *roughly)
-}
-
-fn asked(question: &Question<'_>) -> Asked {
-    let core = format!("{TEXTBOOK}:{}", joined(&question.mistakes));
-    (core, question.case.to_owned(), question.with, question.roughly)
-}
-
 /// The textbook's variant with all of these; several may be made beside one choice.
 fn joined(mistakes: &[Mistake]) -> String {
     let words = mistakes.iter().flat_map(|mistake| mistake.name.split(AND));
@@ -298,7 +322,7 @@ impl Planted for PlantedFaults<'_> {
     }
 
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
-        let all: Vec<_> = questions.iter().map(asked).collect();
+        let all: Vec<_> = questions.iter().map(Asked::of).collect();
         let mut new: Vec<_> =
             all.iter().filter(|asked| !self.known().contains_key(asked)).collect();
         let mut seen = BTreeSet::new();
@@ -330,6 +354,11 @@ mod tests {
         Plan::new(project, request, &cases).unwrap()
     }
 
+    fn asked_of(core: &str, case: &str) -> Asked {
+        let [core, case] = [core, case].map(str::to_owned);
+        Asked { core, case, with: Components::empty(), roughly: false, counts_samples: false }
+    }
+
     #[test]
     fn there_is_a_core_for_every_mistake_beside_sums() {
         for BesideSums { name, .. } in BESIDE_SUMS.iter() {
@@ -344,8 +373,7 @@ mod tests {
         let mut bench = plan.bench();
         bench.hosting.limits.seconds = Some(1e-9);
         let planted = PlantedFaults::new(&plan, &bench, [].iter(), 0);
-        let slow = "textbook:leaf-tests-everything".to_owned();
-        let asked = (slow, CASE.to_owned(), Components::empty(), false);
+        let asked = asked_of("textbook:leaf-tests-everything", CASE);
         let (answer, price) = planted.try_out(&asked);
         assert!(answer.is_none() && price >= LONGEST_TRIAL * A_SECOND);
         assert_eq!(planted.try_out(&asked), (None, 0));
@@ -355,7 +383,7 @@ mod tests {
     fn a_mistake_that_leaves_a_picture_as_it_is_is_answered_by_the_right_core() {
         let plan = plan_of(PICTURE);
         let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter(), 0);
-        let asked = |core: &str| (core.to_owned(), PICTURE.to_owned(), Components::empty(), true);
+        let asked = |core: &str| Asked { roughly: true, ..asked_of(core, PICTURE) };
         let statement = |finding: Option<Finding>| finding.unwrap().statement;
         let answer = |core: &str| {
             let asked = asked(core);
@@ -366,5 +394,17 @@ mod tests {
         // There is no glass in it.
         assert_eq!(answer("textbook:glass-indices-swapped"), (false, true));
         assert_eq!(answer("textbook:fov-not-halved"), (true, false));
+    }
+
+    #[test]
+    fn a_sum_that_is_not_divided_is_as_bright_at_a_first_look_as_in_the_core() {
+        let plan = plan_of(PICTURE);
+        let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter(), 0);
+        let named = |one: &&Mistake| one.name == "samples-not-divided";
+        let mistake = *planted.mistakes().iter().find(named).unwrap();
+        let (with, mistakes) = (Components::empty(), vec![mistake]);
+        let asked = Question { mistakes, case: PICTURE, with, roughly: true };
+        let answers = planted.ask(&[asked]);
+        assert!(answers[0].as_ref().unwrap().failed());
     }
 }

@@ -75,8 +75,7 @@ impl MatchesReference {
                 self.reference, reference.provenance.bounces, self.bounces.0
             )));
         }
-        let samples = context.budget.samples(u64::from(self.samples_per_pixel.0));
-        let samples = samples.try_into().unwrap_or(u32::MAX);
+        let samples = context.budget.samples_of_a_pixel(self.samples_per_pixel.0);
         let isolates = context.info.capabilities.contains(Capabilities::ISOLATED_BOUNCES);
         let (direct, bounces) = (self.direct, self.bounces.0);
         let shot = Shot { camera, direct, bounces, samples, isolates };

@@ -73,6 +73,9 @@ pub struct Allowance {
     pub(crate) judges_alone: bool,
     /// Whether of an image its first run is enough, which judges nothing: it tells whether something has changed it.
     pub(crate) only_glances: bool,
+    /// The budget that tells how many samples a pixel has, where it is another: a sum that is not divided by their number
+    /// is as bright as they are many.
+    pub(crate) of_a_pixel: Option<Budget>,
 }
 
 impl Allowance {
@@ -90,6 +93,12 @@ impl Allowance {
     /// What a number of samples meant for the default budget becomes under this one.
     pub(crate) fn samples(self, default: u64) -> u64 {
         (default as f64 / self.coarseness().powi(2)).ceil() as u64
+    }
+
+    /// The same of the samples of a pixel.
+    pub(crate) fn samples_of_a_pixel(self, default: u32) -> u32 {
+        let samples = self.of_a_pixel.map_or(self, Self::from).samples(u64::from(default));
+        samples.try_into().unwrap_or(u32::MAX)
     }
 
     /// By how much the smallest error that must be seen is multiplied.
@@ -164,6 +173,14 @@ mod tests {
         assert_eq!(samples(Budget::Quick.into()), 160);
         let roughly = Allowance { looks_roughly: true, ..Allowance::default() };
         assert_eq!(samples(roughly), 160);
+    }
+
+    #[test]
+    fn a_first_look_can_have_the_samples_of_the_core() {
+        let roughly = Allowance { looks_roughly: true, ..Budget::Quick.into() };
+        assert_eq!(roughly.samples_of_a_pixel(1000), 26);
+        let as_the_core = Allowance { of_a_pixel: Some(Budget::Default), ..roughly };
+        assert_eq!(as_the_core.samples_of_a_pixel(1000), 1000);
     }
 
     #[test]

@@ -13,8 +13,8 @@ use crate::run::record::CoreRecord;
 use crate::run::{Outcome, Plan, Request, Status, TrialRecord, investigate, run_with};
 use std::time::Instant;
 
-/// Mistakes of a camera's rays, and those of the film that show the same picture.
-const SAME_PICTURE: [(&Cause, &Cause); 1] = [(&camera::FILM_Y_DOWN, &image::UPSIDE_DOWN)];
+/// A mistake of a camera's rays, and the one of the film that shows the same picture.
+const SAME_PICTURE: [&Cause; 2] = [&camera::FILM_Y_DOWN, &image::UPSIDE_DOWN];
 
 /// What came of a core with several faults.
 #[derive(Clone, Debug)]
@@ -127,9 +127,9 @@ impl Matrix {
     /// Whether a headline tells of this fault, as far as what was asked can tell it from others.
     fn is_fault(&self, headline: &Headline, fault: &Fault) -> bool {
         let is_told = |cause: &Cause| cause.name == headline.cause;
+        let is_same = SAME_PICTURE.contains(&fault.cause) && SAME_PICTURE.into_iter().any(is_told);
         let sees_rays = self.chooses.is_none();
-        let mut same = SAME_PICTURE.into_iter().filter(|(of_rays, _)| *of_rays == fault.cause);
-        is_told(fault.cause) || !sees_rays && same.any(|(_, of_film)| is_told(of_film))
+        is_told(fault.cause) || !sees_rays && is_same
     }
 
     fn plan(&self, core: CoreSpec) -> Option<Plan> {

@@ -155,12 +155,14 @@ impl Grid {
         let squares = |pixel: &[f32; 3]| components(*pixel).map(|e| e * e);
         let squares: Vec<_> = errors.pixels.iter().map(squares).collect();
         let weighted: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
-        let (means, count) = (self.means(&weighted, &squares), self.weight_ratio(weights));
-        means.iter().enumerate().map(|(i, m)| (m * count[i / COMPONENTS]).sqrt()).collect()
+        let [of_squares, of_weights] = [&weighted[..], weights].map(|w| self.totals(w));
+        let share = |cell: usize| of_squares[cell] / (of_weights[cell] * of_weights[cell]);
+        let means = self.means(&weighted, &squares);
+        means.iter().enumerate().map(|(i, m)| (m * share(i / COMPONENTS)).sqrt()).collect()
     }
 
     /// The number of the cell that a pixel lies in.
-    pub(super) fn cell_of(&self, [x, y]: [usize; 2]) -> usize {
+    fn cell_of(&self, [x, y]: [usize; 2]) -> usize {
         y / self.cell.1 * self.columns + x / self.cell.0
     }
 
@@ -168,21 +170,9 @@ impl Grid {
     fn totals(&self, weights: &[f64]) -> Vec<f64> {
         let mut totals = vec![0.0; self.len()];
         for (cell, pixels) in self.stretches() {
-            totals[cell] += weights[pixels].iter().sum::<f64>();
+            weights[pixels].iter().for_each(|weight| totals[cell] += weight);
         }
         totals
-    }
-
-    /// Σ w² / (Σ w)² of each cell.
-    fn weight_ratio(&self, weights: &[f64]) -> Vec<f64> {
-        let mut sums = vec![(0.0, 0.0); self.len()];
-        for (cell, pixels) in self.stretches() {
-            for weight in &weights[pixels] {
-                sums[cell].0 += weight;
-                sums[cell].1 += weight * weight;
-            }
-        }
-        sums.into_iter().map(|(sum, squares): (f64, f64)| squares / (sum * sum)).collect()
     }
 }
 
@@ -234,17 +224,17 @@ impl Cells {
         self.grids.iter().flat_map(|grid| grid.standard_errors(&self.weights, errors)).collect()
     }
 
-    /// Of each tile of 8 by 8 pixels, the cell of a large scale that it lies in, and the share of that cell's weight which
-    /// is the tile's.
-    pub(super) fn tiles_in(&self, scale: usize) -> Vec<(usize, f64)> {
+    /// Of each cell of a large scale, the tiles of 8 by 8 pixels in it, each with its share of the cell's weight.
+    pub(super) fn tiles_of(&self, scale: usize) -> Vec<Vec<(usize, f64)>> {
         let (tiles, grid) = (&self.grids[TILES], &self.grids[scale]);
         let [of_tiles, of_cells] = [tiles, grid].map(|grid| grid.totals(&self.weights));
-        let place = |tile: usize| {
+        let mut inside = vec![Vec::new(); grid.len()];
+        for (tile, weight) in of_tiles.into_iter().enumerate() {
             let extent = tiles.extent(tile);
             let cell = grid.cell_of([extent.x, extent.y]);
-            (cell, of_tiles[tile] / of_cells[cell])
-        };
-        (0..tiles.len()).map(place).collect()
+            inside[cell].push((tile, weight / of_cells[cell]));
+        }
+        inside
     }
 
     /// Where the values of each scale lie among all.

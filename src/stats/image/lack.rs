@@ -24,17 +24,17 @@ pub(super) fn pixels_that_lack(
     for (place, sign, weight) in &frozen.terms {
         let index = place - target.cells.ranges()[scale].start;
         let (cell, component) = (index / COMPONENTS, index % COMPONENTS);
-        for (tile, share) in tiles.inside(cell) {
-            let departure = sign * weight * share * tiles.difference(tile, component);
+        for (tile, share) in &tiles.of_cells[cell] {
+            let departure = sign * weight * share * tiles.difference(*tile, component);
             departs += departure;
             if *sign < 0.0 {
-                *lacks.entry(tile).or_default() += departure;
+                *lacks.entry(*tile).or_default() += departure;
             }
         }
     }
     let squares: f64 = lacks.values().filter(|lack| **lack > 0.0).map(|lack| lack * lack).sum();
-    let (tile, picture) = (&target.cells.grids[TILES], departs.max(0.0).powi(2) / squares);
-    tile.pixels() as f64 * picture
+    let alike = departs.max(0.0).powi(2) / squares;
+    alike * target.cells.grids[TILES].pixels() as f64
 }
 
 /// The tiles of both confirmations.
@@ -44,21 +44,13 @@ struct Tiles<'a> {
     /// Where the values of tiles start.
     start: usize,
     /// Of each cell of the large scale, its tiles with their shares of it.
-    of_cells: BTreeMap<usize, Vec<(usize, f64)>>,
+    of_cells: Vec<Vec<(usize, f64)>>,
 }
 
 impl<'a> Tiles<'a> {
     fn of(confirmations: [&'a Spread; 2], target: &'a Target, scale: usize) -> Self {
-        let mut of_cells = BTreeMap::<usize, Vec<_>>::new();
-        for (tile, (cell, share)) in target.cells.tiles_in(scale).into_iter().enumerate() {
-            of_cells.entry(cell).or_default().push((tile, share));
-        }
-        let start = target.cells.ranges()[TILES].start;
+        let (start, of_cells) = (target.cells.ranges()[TILES].start, target.cells.tiles_of(scale));
         Self { confirmations, target, start, of_cells }
-    }
-
-    fn inside(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> {
-        self.of_cells.get(&cell).into_iter().flatten().copied()
     }
 
     /// Measured less expected.

@@ -136,8 +136,8 @@ impl<'a, E> Screening<'a, E> {
     }
 
     /// The larger of the standard errors that the frozen cells of a scale are known to have: nothing where they are too
-    /// bright, which no light that is missed can make them, and all where too few samples fell where large cells lack
-    /// light.
+    /// bright, which no light that is missed can make them, and infinite where too few samples fell on the tiles in which
+    /// large cells lack light.
     fn known(&self, scale: usize, frozen: &Frozen, confirmations: [&Spread; 2]) -> f64 {
         if frozen.is_too_bright() {
             return 0.0;

@@ -248,6 +248,26 @@ fn light_of_one_sample_in_1500_fails_no_picture_and_half_of_all_light_does() {
     assert_eq!(judge_one_in_1500(0.5, 0).verdict, Verdict::Fail);
 }
 
+/// A picture six of whose tiles have three quarters of their light by one sample in 10,000, known well.
+fn judge_one_in_10_000(seed: u64) -> ImageReport {
+    let mean = Image::new(SIZE, SIZE, [0.5; 3]);
+    let error = Image::new(SIZE, SIZE, [0.002; 3]);
+    judged([&mean, &error], (0.5, 2), seed, |x, y, stream| {
+        let rare = if x < 48 && y < 8 { 0.75 } else { 0.0 };
+        let hits = (0..2).filter(|_| uniform(stream) < 1e-4).count();
+        let often = -(1.0 - uniform(stream)).ln();
+        [0.5 * (rare * 0.5e4 * hits as f64 + (1.0 - rare) * often) as f32; 3]
+    })
+}
+
+#[test]
+fn a_band_that_a_few_tiles_darken_fails_only_where_their_samples_are_many() {
+    for seed in 0..40 {
+        let report = judge_one_in_10_000(seed);
+        assert_ne!(report.verdict, Verdict::Fail, "seed {seed}: {:?}", report.worst_scale);
+    }
+}
+
 fn judge_pair(left: &Image, right: &Image) -> ImageReport {
     let mut draw = |request: ImageDraw| {
         let seed = request.seed(Seed(1));

@@ -67,6 +67,21 @@ pub(crate) fn all() -> impl Iterator<Item = &'static Cause> {
     subjects.into_iter().flatten().copied()
 }
 
+/// Whether both are mistakes of a subject that is one component, or a few: not of the contract, which all of them keep.
+pub(crate) fn are_of_one_component(one: &Cause, other: &Cause) -> bool {
+    let subjects = [
+        camera::CAUSES,
+        shape::CAUSES,
+        bvh::CAUSES,
+        sampling::CAUSES,
+        bsdf::CAUSES,
+        light::CAUSES,
+        integrator::CAUSES,
+        adaptive::CAUSES,
+    ];
+    subjects.into_iter().any(|causes| causes.contains(&one) && causes.contains(&other))
+}
+
 /// Whether the mistake is one of the BVH: closed surfaces leak by it, though every triangle is hit.
 pub(crate) fn is_of_bvh(cause: &Cause) -> bool {
     bvh::CAUSES.contains(&cause)

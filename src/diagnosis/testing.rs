@@ -45,6 +45,7 @@ pub(crate) struct Made {
     ended: Vec<(String, Ending<'static>)>,
     under: Vec<(String, Circumstances)>,
     work: u64,
+    lent: Components,
     pub(crate) conventions: Conventions,
 }
 
@@ -52,7 +53,7 @@ impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
         let (tiers, specular, resting, proving, ended, under) = Default::default();
-        let work = 1;
+        let (work, lent) = (1, Components::empty());
         Self {
             findings,
             blocked,
@@ -63,6 +64,7 @@ impl Made {
             ended,
             under,
             work,
+            lent,
             conventions,
         }
     }
@@ -119,6 +121,11 @@ impl Made {
         Self { work, ..self }
     }
 
+    /// The same where the core has these from the bench.
+    pub(crate) fn lent(self, lent: Components) -> Self {
+        Self { lent, ..self }
+    }
+
     pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
         self.blocked.push((case.to_owned(), by.to_owned()));
         self
@@ -154,6 +161,7 @@ impl Made {
             rests_on: of_case(&self.resting, seen.case).to_vec(),
             proves: of_case(&self.proving, seen.case),
             work: self.work,
+            with: self.lent,
             circumstances: self
                 .under
                 .iter()

@@ -5,7 +5,7 @@ use crate::checks::bvh::comparison::hits_with;
 use crate::checks::oracle::{self, Met};
 use crate::checks::phrase::figure;
 use crate::checks::{CheckError, Context};
-use crate::contract::{Acceleration, Capabilities, Ray};
+use crate::contract::{Acceleration, Capabilities, Hit, Ray};
 use crate::scene::SceneDescription;
 
 /// Leaks that are looked at one by one.
@@ -13,6 +13,9 @@ const LOOKED_AT: usize = 300;
 
 /// A leak this near an edge, in weights, is one of the edge.
 const EDGE: f64 = 0.01;
+
+/// How far from where it should be a hit of the same place is, in parts of its t.
+const NEAR: f64 = 1e-3;
 
 /// What the leaks have in common.
 pub(super) fn causes(
@@ -22,8 +25,10 @@ pub(super) fn causes(
     count: u64,
 ) -> Result<Vec<(&'static Cause, String)>, CheckError> {
     let looked_at = &leaks[..leaks.len().min(LOOKED_AT)];
-    let met: Vec<_> = looked_at.iter().filter_map(|ray| oracle::nearest(scene, ray)).collect();
-    if found_by_loop(context, scene, looked_at)? == Some(looked_at.len()) {
+    let nearest: Vec<_> = looked_at.iter().map(|ray| oracle::nearest(scene, ray)).collect();
+    let is_found = is_found_by_loop(context, scene, looked_at, &nearest)?;
+    let met: Vec<_> = nearest.into_iter().flatten().collect();
+    if is_found {
         let evidence = format!("the loop over all triangles meets all {} rays", looked_at.len());
         return Ok(vec![missing_triangles(&met).unwrap_or((&bvh::HITS_LOST, evidence))]);
     }
@@ -56,17 +61,22 @@ fn culled(
     Ok(is_culled.then(|| (&shape::BACK_CULLED, evidence.to_owned())))
 }
 
-/// How many of the rays the loop meets; `None` if the core has no loop.
-fn found_by_loop(
+/// Whether the core's loop meets what each ray should meet: one that meets what is not there says nothing of the BVH.
+fn is_found_by_loop(
     context: &mut Context<'_>,
     scene: &SceneDescription,
     rays: &[Ray],
-) -> Result<Option<usize>, CheckError> {
+    nearest: &[Option<Met>],
+) -> Result<bool, CheckError> {
     if !context.info.capabilities.contains(Capabilities::BRUTE_FORCE) {
-        return Ok(None);
+        return Ok(false);
     }
     let hits = hits_with(context, scene, Acceleration::BruteForce, rays)?;
-    Ok(Some(hits.iter().filter(|hit| hit.is_hit()).count()))
+    let is_right = |(hit, met): (&Hit, &Option<Met>)| {
+        let met = met.is_some_and(|met| (hit.t - met.answer.t).abs() < NEAR * met.answer.t);
+        hit.is_hit() && met
+    };
+    Ok(hits.iter().zip(nearest).all(is_right))
 }
 
 /// The least of the three weights.

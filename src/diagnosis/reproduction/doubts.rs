@@ -8,7 +8,7 @@ use super::{
 use crate::cause::{self, Cause, bvh};
 use crate::contract::Components;
 use crate::diagnosis::rank::Ranked;
-use crate::diagnosis::{Headline, Observation, Suspicion, look_without};
+use crate::diagnosis::{Ending, Headline, Observation, Suspicion, look_without};
 use std::collections::BTreeSet;
 
 /// Cases of a cause that may contradict it one by one: what it does not explain may be another mistake of the same lines.
@@ -51,6 +51,7 @@ impl<'a> Proof<'a> {
         let against: BTreeSet<_> =
             told.with_cause().filter(is_against).map(|one| one.cause.clone()).collect();
         let causes: BTreeSet<_> = found.iter().map(|suspicion| suspicion.cause.name).collect();
+        let stops_in_its_build = self.stops_in_its_build();
         let is_alone = |one: &&Headline| self.is_the_only_one_in_sight(one, &told);
         let alone: BTreeSet<_> =
             told.with_cause().filter(is_alone).map(|one| one.cause.clone()).collect();
@@ -60,7 +61,9 @@ impl<'a> Proof<'a> {
                 || alone.contains(&headline.cause)
                 || self.is_needed(headline);
             let is_unsure = || self.is_dark_alone(headline) || self.is_of_another_size(headline);
-            let is_doubtful = self.is_made_elsewhere(headline) || against.contains(&headline.cause);
+            let is_doubtful = self.is_made_elsewhere(headline)
+                || against.contains(&headline.cause)
+                || stops_in_its_build;
             is_doubtful || !is_proven && is_unsure()
         });
         // Patterns of which each explains other cases contradict each other.
@@ -94,8 +97,7 @@ impl<'a> Proof<'a> {
 
     fn contradicting(&self, headline: &Headline, all: &[Mistake]) -> Refuted {
         let Some(cause) = cause::find(&headline.cause) else { return Refuted::new() };
-        let planted: Components = self.of(headline).map(|mistake| mistake.components).collect();
-        let made = if cause::is_of_the_film_alone(cause) { Components::PIXEL } else { planted };
+        let made = self.components_of(headline, cause);
         if !made.is_empty() && self.made_in.leaves(made) {
             return refuted(cause, &headline.explains);
         }
@@ -111,6 +113,22 @@ impl<'a> Proof<'a> {
             return refuted(cause, &headline.explains);
         }
         against.into_iter().map(|seen| (cause.name, seen.case.to_owned())).collect()
+    }
+
+    /// Where its mistake is made: what cannot be planted, where others of its subject are.
+    fn components_of(&self, headline: &Headline, cause: &Cause) -> Components {
+        let made_by = |is_like: &dyn Fn(&Cause) -> bool| -> Components {
+            let like = self.planted.mistakes().iter().filter(|mistake| is_like(mistake.cause));
+            like.map(|mistake| mistake.components).collect()
+        };
+        let planted = made_by(&|other| other.name == headline.cause);
+        match () {
+            () if cause::is_of_the_film_alone(cause) => Components::PIXEL,
+            () if !planted.is_empty() => planted,
+            // Some of the mistakes of a BVH are made by the shapes that it asks.
+            () if cause::is_of_bvh(cause) => Components::BOX_TEST | Components::TRAVERSAL,
+            () => made_by(&|other| cause::are_of_one_component(cause, other)),
+        }
     }
 
     /// Cases that the core fails otherwise than each of these sets of mistakes would.
@@ -255,6 +273,16 @@ impl<'a> Proof<'a> {
         let seen = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
         let mut seen = seen.peekable();
         seen.peek().is_some() && seen.all(|seen| seen.is_about_light() && seen.is_dark())
+    }
+
+    /// Whether a build stops though the bench finds the hits: what the core prepares for all its components is broken, and none
+    /// of them can be judged without it.
+    fn stops_in_its_build(&self) -> bool {
+        let stops = |seen: &Observation<'_>| {
+            seen.with.contains(Components::TRAVERSAL)
+                && matches!(seen.ending, Some(Ending::Crashed { during: "build", .. }))
+        };
+        self.evidence.all_failures().any(stops)
     }
 
     /// What the search has found of darkness alone, and what is not the only one in sight.

@@ -65,9 +65,10 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     if wrong.is_empty() {
         return if broke_alike(core, planted) { Likeness::Same } else { by_verdict(planted) };
     }
+    let wrong_of_planted_alone = not_met(core, planted);
     let most = |agree: fn(&Measure, &Measure) -> bool| {
         let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
-        count as f64 >= MOST * wrong.len() as f64
+        count as f64 >= MOST * (wrong.len() + wrong_of_planted_alone) as f64
     };
     match (most(errs_alike), most(errs_as_much)) {
         // So little is wrong that the noise of one of them hides it.
@@ -76,6 +77,14 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         (true, false) => Likeness::Alike,
         (false, false) => Likeness::Other,
     }
+}
+
+/// How many numbers are wrong with the planted mistake of which the core has none, as where it never samples that lobe.
+fn not_met(core: &Finding, planted: &Finding) -> usize {
+    let missing = core.measures.iter().filter(|one| one.measured.is_nan() && !one.failed());
+    let is_wrong =
+        |one: &&Measure| planted.failed_measures().any(|other| one.question() == other.question());
+    missing.filter(is_wrong).count()
 }
 
 /// Whether the case has recognised each by a formula of its own: sizes may meet by chance, and answers follow one formula.
@@ -202,6 +211,7 @@ mod tests {
     use crate::cause::{contract, shape};
     use crate::diagnosis::testing::{failing, mean, means, passing};
     use crate::image::Channel;
+    use crate::stats::Verdict;
 
     #[test]
     fn answers_of_another_formula_are_not_alike_though_their_sizes_meet() {
@@ -222,6 +232,19 @@ mod tests {
         assert_eq!(likeness(Some(&half()), &lost), Likeness::Same);
         let nameless = Finding { clues: Vec::new(), ..moved_on };
         assert_eq!(likeness(Some(&nameless), &swapped), Likeness::Same);
+    }
+
+    #[test]
+    fn what_a_core_never_answers_is_not_wrong_alike() {
+        let share = |name: &str, measured| Measure::exact(name, measured, 0.03, 1e-9);
+        let both = means(vec![share("reflected share", 0.7), share("refracted share", 0.2)]);
+        let unmet = Measure {
+            verdict: Verdict::Inconclusive,
+            ..Measure::exact("refracted share", f64::NAN, 0.0, 1e-9)
+        };
+        let reflected = means(vec![share("reflected share", 0.7), unmet]);
+        assert_eq!(likeness(Some(&reflected), &both), Likeness::Other);
+        assert_eq!(likeness(Some(&reflected), &reflected), Likeness::Same);
     }
 
     #[test]

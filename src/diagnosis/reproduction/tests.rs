@@ -4,7 +4,7 @@ use super::*;
 use crate::case::Foundation;
 use crate::cause::{bsdf, bvh, contract, integrator, light};
 use crate::diagnosis::testing::{Made, failing, mean, means, passing};
-use crate::diagnosis::{Degree, Diagnosis, Headline, diagnose, diagnose_proven};
+use crate::diagnosis::{Degree, Diagnosis, Ending, Headline, diagnose, diagnose_proven};
 use crate::image::Channel;
 
 const PI: Mistake = mistake("pi", &bsdf::WITHOUT_PI, "bsdf/a");
@@ -794,6 +794,44 @@ fn what_the_traversal_mends_is_no_mistake_of_a_pixel() {
     let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
     assert_eq!(of(MadeIn::Mended(Components::TRAVERSAL)), Degree::DiffersHere);
     assert_eq!(of(MadeIn::Mended(Components::PIXEL)), Degree::Named);
+}
+
+#[test]
+fn what_is_told_beside_a_build_that_stops_though_the_bench_finds_the_hits_is_looked_like() {
+    let crash = Ending::Crashed { how: "signal 11", during: "build" };
+    let without_pi = light(0.5).because(&bsdf::WITHOUT_PI, "x");
+    let made = Made::new().with("light/a", without_pi).ended("light/b", crash);
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let degree = |made: &Made| {
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        told(&diagnosis).into_iter().find(|one| one.0 == bsdf::WITHOUT_PI.name).unwrap().1
+    };
+    assert_eq!(degree(&made), Degree::Named);
+    assert_eq!(degree(&made.lent(Components::TRAVERSAL)), Degree::LooksLike);
+}
+
+#[test]
+fn hits_that_the_triangle_test_brings_back_are_not_lost_by_the_bvh() {
+    let lost = failing("a").because(&bvh::HITS_LOST, "x");
+    let made = Made::new().with("shape/a", lost);
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let of = |made_in| told(&proven(&made.evidence(), &planted, made_in).told())[0].1;
+    assert_eq!(of(MadeIn::Mended(Components::TRIANGLE_TEST)), Degree::DiffersHere);
+    assert_eq!(of(MadeIn::Mended(Components::TRAVERSAL)), Degree::Named);
+    assert_eq!(of(MadeIn::Mended(Components::BOX_TEST)), Degree::Named);
+}
+
+#[test]
+fn what_cannot_be_planted_is_made_where_others_of_its_subject_are() {
+    let backwards = light(0.2).because(&bsdf::GLASS_RADIANCE_SCALED_BACKWARDS, "x");
+    let made = Made::new().with("integrator/a", backwards);
+    let of = |planted: &[Mistake], broken: Components| {
+        let planted = Bench { mistakes: planted, gives: &[] };
+        told(&proven(&made.evidence(), &planted, MadeIn::Mended(broken)).told())[0].1
+    };
+    assert_eq!(of(&[PI], Components::TRAVERSAL), Degree::DiffersHere);
+    assert_eq!(of(&[PI], Components::BSDF), Degree::Named);
+    assert_eq!(of(&[], Components::TRAVERSAL), Degree::Named, "where BSDFs are is not known");
 }
 
 #[test]

@@ -140,7 +140,7 @@ mod tests {
     fn the_worst_film_is_told_with_a_pixel() {
         let finding = developed(MISTAKES[0].develop);
         let statement = failure(&finding);
-        assert!(statement.contains("pixels are wrong; (0, 0) is (64, 32, 128)"), "{statement}");
+        assert!(statement.contains("pixels are wrong; (0, 0) is (16, 32, 128)"), "{statement}");
     }
 
     #[test]

@@ -49,37 +49,28 @@ macro_rules! causes {
 }
 use causes;
 
-/// Every cause, subject by subject, in the order in which one part rests on another.
+/// Subjects whose mistakes are made in one component, or in a few, in the order in which one part rests on another.
+static OF_COMPONENTS: [&[&Cause]; 8] = [
+    camera::CAUSES,
+    shape::CAUSES,
+    bvh::CAUSES,
+    sampling::CAUSES,
+    bsdf::CAUSES,
+    light::CAUSES,
+    integrator::CAUSES,
+    adaptive::CAUSES,
+];
+
+/// Every cause, subject by subject, in the same order.
 pub(crate) fn all() -> impl Iterator<Item = &'static Cause> {
-    let subjects = [
-        convention::CAUSES,
-        camera::CAUSES,
-        shape::CAUSES,
-        bvh::CAUSES,
-        sampling::CAUSES,
-        bsdf::CAUSES,
-        light::CAUSES,
-        integrator::CAUSES,
-        adaptive::CAUSES,
-        contract::CAUSES,
-        image::CAUSES,
-    ];
-    subjects.into_iter().flatten().copied()
+    let of_components = OF_COMPONENTS.into_iter().flatten();
+    let of_all = contract::CAUSES.iter().chain(image::CAUSES);
+    convention::CAUSES.iter().chain(of_components).chain(of_all).copied()
 }
 
-/// Whether both are mistakes of a subject that is one component, or a few: not of the contract, which all of them keep.
+/// Whether both are of one subject whose mistakes are made in certain components: those of the contract are made in all.
 pub(crate) fn are_of_one_component(one: &Cause, other: &Cause) -> bool {
-    let subjects = [
-        camera::CAUSES,
-        shape::CAUSES,
-        bvh::CAUSES,
-        sampling::CAUSES,
-        bsdf::CAUSES,
-        light::CAUSES,
-        integrator::CAUSES,
-        adaptive::CAUSES,
-    ];
-    subjects.into_iter().any(|causes| causes.contains(&one) && causes.contains(&other))
+    OF_COMPONENTS.iter().any(|causes| causes.contains(&one) && causes.contains(&other))
 }
 
 /// Whether the mistake is one of the BVH: closed surfaces leak by it, though every triangle is hit.

@@ -65,10 +65,10 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
     if wrong.is_empty() {
         return if broke_alike(core, planted) { Likeness::Same } else { by_verdict(planted) };
     }
-    let wrong_of_planted_alone = not_met(core, planted);
+    let told = wrong.len() + unanswered(core, planted);
     let most = |agree: fn(&Measure, &Measure) -> bool| {
         let count = wrong.iter().filter(|(a, b)| agree(a, b)).count();
-        count as f64 >= MOST * (wrong.len() + wrong_of_planted_alone) as f64
+        count as f64 >= MOST * told as f64
     };
     match (most(errs_alike), most(errs_as_much)) {
         // So little is wrong that the noise of one of them hides it.
@@ -80,7 +80,7 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
 }
 
 /// How many numbers are wrong with the planted mistake of which the core has none, as where it never samples that lobe.
-fn not_met(core: &Finding, planted: &Finding) -> usize {
+fn unanswered(core: &Finding, planted: &Finding) -> usize {
     let missing = core.measures.iter().filter(|one| one.measured.is_nan() && !one.failed());
     let is_wrong =
         |one: &&Measure| planted.failed_measures().any(|other| one.question() == other.question());

@@ -278,9 +278,11 @@ impl<'a> Proof<'a> {
     /// Whether a build stops though the bench finds the hits: what the core prepares for all its components is broken, and none
     /// of them can be judged without it.
     fn stops_in_its_build(&self) -> bool {
-        let stops = |seen: &Observation<'_>| {
-            seen.with.contains(Components::TRAVERSAL)
-                && matches!(seen.ending, Some(Ending::Crashed { during: "build", .. }))
+        let stops = |seen: &Observation<'_>| match seen.ending {
+            Some(Ending::Crashed { during, .. } | Ending::TimedOut { during }) => {
+                during == "build" && seen.with.contains(Components::TRAVERSAL)
+            }
+            _ => false,
         };
         self.evidence.all_failures().any(stops)
     }

@@ -798,16 +798,18 @@ fn what_the_traversal_mends_is_no_mistake_of_a_pixel() {
 
 #[test]
 fn what_is_told_beside_a_build_that_stops_though_the_bench_finds_the_hits_is_looked_like() {
-    let crash = Ending::Crashed { how: "signal 11", during: "build" };
-    let without_pi = light(0.5).because(&bsdf::WITHOUT_PI, "x");
-    let made = Made::new().with("light/a", without_pi).ended("light/b", crash);
+    let without_pi = || light(0.5).because(&bsdf::WITHOUT_PI, "x");
+    let made = |ending| Made::new().with("light/a", without_pi()).ended("light/b", ending);
     let planted = Bench { mistakes: &[], gives: &[] };
     let degree = |made: &Made| {
         let diagnosis = diagnose_proven(&made.evidence(), &planted);
         told(&diagnosis).into_iter().find(|one| one.0 == bsdf::WITHOUT_PI.name).unwrap().1
     };
-    assert_eq!(degree(&made), Degree::Named);
-    assert_eq!(degree(&made.lent(Components::TRAVERSAL)), Degree::LooksLike);
+    let crash = Ending::Crashed { how: "signal 11", during: "build" };
+    for ending in [crash, Ending::TimedOut { during: "build" }] {
+        assert_eq!(degree(&made(ending)), Degree::Named);
+        assert_eq!(degree(&made(ending).lent(Components::TRAVERSAL)), Degree::LooksLike);
+    }
 }
 
 #[test]

@@ -123,6 +123,10 @@ causes! {
         "direct light ignores occlusion",
         at "the shadow ray: whether there is one, its origin, t_min and t_max",
         fix "Add a light sample only if the shadow ray reaches the light unoccluded; its origin is offset by no more than a few roundings.";
+    SECONDARY_RAYS_LOST = "secondary-rays-meet-nothing":
+        "rays that leave a surface meet nothing: shadow rays, hemisphere samples and bounces alike",
+        at "where rays leave a surface: their origin, t_min and t_max",
+        fix "Offset the origin by no more than a few roundings, and end the ray at the light, or nowhere.";
     SHADOW_BEYOND_LIGHT = "shadow-beyond-light":
         "surfaces behind the light cast a shadow",
         at "direct lighting, where t_max of the shadow ray is set",

@@ -100,13 +100,15 @@ pub(crate) fn is_vague(cause: &Cause) -> bool {
 }
 
 /// Whether the second is no mistake of its own where the first is made: what is lost by it, t_max that stays as it is
-/// where hits do not shorten it, a length of fixed size where a threshold is one, or half a pixel that the pixel takes
-/// away because the camera adds it.
+/// where hits do not shorten it, a length of fixed size where a threshold is one, half a pixel that the pixel takes away
+/// because the camera adds it, or shadows and bounces of rays that meet nothing.
 pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
     may_lose_hits(cause) && !is_vague(cause) && is_vague(other)
         || *cause == bvh::HIT_OVERWRITTEN && *other == bvh::SEGMENT_NOT_SHORTENED
         || *cause == shape::DETERMINANT_THRESHOLD && *other == integrator::FIXED_LENGTH
         || *cause == camera::HALF_PIXEL_TWICE && *other == camera::HALF_A_PIXEL
+        || *cause == light::SECONDARY_RAYS_LOST
+            && [&light::NO_SHADOWS, &integrator::NO_INDIRECT].contains(&other)
 }
 
 /// Whether it tells what a number is, and not what made it so: a missing normalisation, or an answer that is never

@@ -1,7 +1,7 @@
 //! Which mistake an answer is that has not the contract's form.
 
-use super::{CheckError, Finding};
-use crate::cause::{Cause, camera, contract, shape};
+use super::{CheckError, Clue, Finding};
+use crate::cause::{Cause, camera, contract, sampling, shape};
 use crate::contract::{Breach, BreachKind, CoreError};
 use crate::stats::Verdict;
 
@@ -19,7 +19,10 @@ pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError
         Ok(found) if found.failed() => {
             let statement = format!("{}; {mend}, {}", alone.statement, found.statement);
             let not_enough = cause_of(breach).map(|cause| cause.name.to_owned());
-            Finding { statement, not_enough, ..found }
+            // What lies between the ends of a range has broken the contract, too: it is not the ends that were forgotten.
+            let is_of_ends = |clue: &Clue| clue.cause == sampling::ENDS_OF_RANGE.name;
+            let clues = found.clues.into_iter().filter(|clue| !is_of_ends(clue)).collect();
+            Finding { statement, not_enough, clues, ..found }
         }
         Ok(found) if found.verdict == Verdict::Pass => {
             let evidence = format!("{breach}; {mend}, everything else is right");
@@ -70,6 +73,8 @@ mod tests {
             "{}",
             wrong.statement
         );
+        let at_an_end = Finding::failure("a sample is NaN").because(&sampling::ENDS_OF_RANGE, "0");
+        assert!(failure_beside(&breach, Ok(at_an_end)).clues.is_empty());
         let right = Finding { verdict: Verdict::Pass, ..Finding::failure("all normals are right") };
         let alone = failure_beside(&breach, Ok(right));
         assert!(alone.failed());

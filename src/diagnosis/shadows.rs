@@ -26,7 +26,7 @@ const VARIANCE_SLACK: f64 = 0.02;
 
 /// Shadows that are missing, rays that are too short, and lights that shadow themselves.
 pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
-    let rules = [no_shadows, range_kept, shadowed_at_times];
+    let rules = [no_shadows, meeting_nothing, range_kept, shadowed_at_times];
     rules.into_iter().filter_map(|rule| rule(evidence)).collect()
 }
 
@@ -84,6 +84,31 @@ fn some_arrive(mean: &Measure, variance: &Measure) -> bool {
 
 /// Open light is right, and nothing hides a light.
 fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    Some(nothing_hides_a_light(evidence)?).filter(|_| !are_dark_by_hemisphere(evidence))
+}
+
+/// Nothing hides a light, and no direction that was sampled finds one, though light sampling does.
+fn meeting_nothing(evidence: &Evidence<'_>) -> Option<Suspicion> {
+    let no_shadows = nothing_hides_a_light(evidence)?;
+    let (mut cases, mut told) = (no_shadows.cases, no_shadows.evidence);
+    let dark = evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());
+    cases.extend(dark.map(|seen| seen.case.to_owned()));
+    told.push("hemisphere sampling finds no light at all".to_owned());
+    are_dark_by_hemisphere(evidence).then(|| Suspicion {
+        cause: &light::SECONDARY_RAYS_LOST,
+        cases,
+        evidence: told,
+        ruled_out: vec![RuledOut::new(
+            "missing shadow rays",
+            "hemisphere sampling, which has none, would be right",
+        )],
+        weight: 1.0,
+        degree: Degree::Named,
+        beside: false,
+    })
+}
+
+fn nothing_hides_a_light(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let wall = evidence.failed_finding(WALL)?;
     evidence.failed_finding(BLOCKER)?;
     let light = wall.measures.iter().map(|measure| measure.measured).fold(0.0, f64::max);
@@ -99,6 +124,14 @@ fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
         degree: Degree::Named,
         beside: false,
     })
+}
+
+/// Whether hemisphere sampling finds nothing, from afar and from nearby.
+fn are_dark_by_hemisphere(evidence: &Evidence<'_>) -> bool {
+    let is_dark = |finding: &Finding| {
+        !finding.measures.is_empty() && finding.measures.iter().all(Measure::is_degenerate)
+    };
+    FOUND.iter().all(|role| evidence.failed_finding(*role).is_some_and(is_dark))
 }
 
 /// Right from afar and dark from nearby, wherever it was tried: rays go no further than the camera was away. At one point
@@ -129,7 +162,9 @@ fn range_kept(evidence: &Evidence<'_>) -> Option<Suspicion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::testing::{Made, mean, means, passing};
+    use crate::cause::integrator;
+    use crate::diagnosis::diagnose;
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
 
     #[test]
     fn light_behind_a_wall_is_a_missing_shadow_where_open_light_is_right() {
@@ -138,6 +173,27 @@ mod tests {
         let made = || Made::new().with(WALL, lit()).with(BLOCKER, bright());
         assert_eq!(made().with(OPEN, passing()).first(), Some(light::NO_SHADOWS.name));
         assert_eq!(made().first(), None);
+    }
+
+    #[test]
+    fn rays_that_meet_nothing_cast_no_shadow_and_find_no_light() {
+        let lit = || means(vec![Measure::exact("behind", 0.2, 0.0, 0.0)]);
+        let found = |ratio: f64| means(vec![mean("bounce 1", CHANNELS[0], 0.1, ratio, 1e-3)]);
+        let made = |by_hemisphere: f64| {
+            let bounces = failing("dark").because(&integrator::NO_INDIRECT, "0 from bounce 2 on");
+            let made =
+                Made::new().with(WALL, lit()).with(BLOCKER, found(1.6)).with(OPEN, passing());
+            let made = made.with("integrator/a", bounces);
+            FOUND.into_iter().fold(made, |made, role| made.with(role, found(by_hemisphere)))
+        };
+        let told = |by_hemisphere: f64| {
+            let told = diagnose(&made(by_hemisphere).evidence()).headlines.into_iter();
+            told.map(|headline| headline.cause)
+                .filter(|cause| !cause.is_empty())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(told(0.0), [light::SECONDARY_RAYS_LOST.name]);
+        assert_eq!(told(0.7), [light::NO_SHADOWS.name, integrator::NO_INDIRECT.name]);
     }
 
     #[test]

@@ -216,7 +216,7 @@ impl<'a> Proof<'a> {
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
     /// mistake, or among twice as much in all parts: one mistake is all there is.
-    fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
+    pub(super) fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
         let explains = |one: &Headline, seen: &Observation<'_>| {
             one.explains.iter().any(|case| case == seen.case)
@@ -295,9 +295,13 @@ impl<'a> Proof<'a> {
         unsure.filter_map(all_of).flatten().collect()
     }
 
-    /// What the search has found of light that is too weak, where far more cases have none and its mistake leaves them right:
-    /// whatever takes that light takes this, too.
-    fn dim_among_the_dark(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
+    /// Causes of light that is too weak, but for those that rules suspected, where far more cases have none and their mistakes
+    /// leave them right: whatever takes that light takes this, too.
+    pub(super) fn dim_among_the_dark(
+        &self,
+        told: &Ranked,
+        suspected: &BTreeSet<String>,
+    ) -> Refuted {
         let explained =
             |case: &str| told.with_cause().any(|one| one.explains.iter().any(|own| own == case));
         let dark = self.evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());

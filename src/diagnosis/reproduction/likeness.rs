@@ -132,6 +132,15 @@ fn broke_alike(core: &Finding, planted: &Finding) -> bool {
     have_no_measures && ways(core) == ways(planted) && (is_named || is_to_the_letter)
 }
 
+/// Whether the core broke the contract in a way that is known, and what is planted has wrong numbers and kept it: something
+/// else is wrong.
+pub(super) fn breaks_otherwise(core: &Finding, planted: &Finding) -> bool {
+    let has_numbers = |finding: &Finding| finding.failed_measures().next().is_some();
+    let (of_core, of_planted) = (ways(core), ways(planted));
+    let breaks = !of_core.is_empty() && !has_numbers(core);
+    breaks && has_numbers(planted) && of_core.is_disjoint(&of_planted)
+}
+
 /// Of what failed without a number: nothing is known of its size.
 fn by_verdict(planted: &Finding) -> Likeness {
     if planted.failed() { Likeness::Unsized } else { Likeness::Other }

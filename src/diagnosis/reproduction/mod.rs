@@ -104,7 +104,8 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
 }
 
 /// The same without causes that nothing takes where all that is named is planted together, and where NaN, infinite and
-/// negative numbers that it gives follow from it, whatever component each mistake is made in.
+/// negative numbers that it gives follow from it, whatever component each mistake is made in. What is lost in the dark only
+/// looks like its cause.
 pub(super) fn without_what_follows(
     mut told: Ranked,
     evidence: &Evidence<'_>,
@@ -117,6 +118,10 @@ pub(super) fn without_what_follows(
     }
     let following = proof.symptoms_given_by_all(&told);
     told.follow(&following);
+    // One darkness may go through several components.
+    let mut lost = proof.lost_in_the_dark(&told);
+    lost.extend(proof.dim_among_the_dark(&told, &BTreeSet::new()));
+    told.doubt(|headline| lost.iter().any(|(cause, _)| *cause == headline.cause));
     told
 }
 

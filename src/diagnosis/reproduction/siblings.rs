@@ -2,8 +2,8 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::doubts::{all_of, refuted};
-use super::likeness::{Likeness, likeness};
-use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, likenesses, quickest};
+use super::likeness::{Likeness, breaks_otherwise, likeness};
+use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, quickest};
 use crate::cause;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -88,26 +88,42 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
-    /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise.
+    /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise. Where it
+    /// breaks the contract there, and nothing that is told does, what is named is none, too.
     pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {
         let all: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
-        let is_unlike = |headline: &Headline, mistake: Mistake| {
-            let own = self.evidence.failure_of(mistake.caught_by);
-            let own = own.filter(|seen| !seen.with.intersects(mistake.components));
-            own.is_some_and(|seen| {
-                let sets = [vec![mistake], all.clone()];
-                let answers = likenesses(&[seen], &self.glimpsed(&sets, &[seen]));
-                !headline.explains.iter().any(|case| case == seen.case)
-                    && answers.iter().all(|of_set| of_set[0] == Likeness::Other)
-            })
-        };
         let is_refuted = |headline: &&Headline| {
+            let is_likeness = headline.degree == Degree::LooksLike;
+            let is_needed = self.is_needed(headline);
+            let is_unlike = |seen: &Observation<'_>, planted: &Finding| {
+                let is_other = likeness(seen.finding, planted) == Likeness::Other;
+                let breaks = || seen.finding.is_some_and(|core| breaks_otherwise(core, planted));
+                is_likeness && is_other || !is_needed && breaks()
+            };
             let mut mistakes = self.of(headline).peekable();
-            headline.degree == Degree::LooksLike
-                && mistakes.peek().is_some()
-                && mistakes.all(|mistake| is_unlike(headline, mistake))
+            mistakes.peek().is_some()
+                && mistakes.all(|mistake| self.is_in_its_own(&is_unlike, headline, mistake, &all))
         };
         ranked.with_cause().filter(is_refuted).filter_map(all_of).flatten().collect()
+    }
+
+    /// Whether this is so in the case that was written for a mistake, if its cause does not explain it: of the mistake alone
+    /// and of all that are told.
+    fn is_in_its_own(
+        &self,
+        is_so: &dyn Fn(&Observation<'_>, &Finding) -> bool,
+        headline: &Headline,
+        mistake: Mistake,
+        all: &[Mistake],
+    ) -> bool {
+        let own = self.evidence.failure_of(mistake.caught_by);
+        let own = own.filter(|seen| !seen.with.intersects(mistake.components));
+        let own = own.filter(|seen| !headline.explains.iter().any(|case| case == seen.case));
+        own.is_some_and(|seen| {
+            let answers = self.glimpsed(&[vec![mistake], all.to_vec()], &[seen]);
+            let mut answers = answers.into_iter().flatten();
+            answers.all(|answer| answer.is_some_and(|planted| is_so(seen, &planted)))
+        })
     }
 
     /// Whether more of its part speaks against a cause than for it.

@@ -870,3 +870,36 @@ fn a_mistake_of_another_component_than_the_one_that_mends_only_looks_like_it() {
     let divided = light::DIVIDED_BY_LIGHTS.name;
     assert_eq!(told(&ranked.told()), [(divided, Degree::LooksLike, 2)]);
 }
+
+#[test]
+fn a_mistake_whose_own_case_breaks_the_contract_as_nothing_told_does_is_not_there() {
+    let gives: &[(&[&str], _, _)] =
+        &[(&["divided"], "light/b", 0.5), (&["divided"], "light/c", 0.5)];
+    let planted = Bench { mistakes: &[DIVIDED], gives };
+    let causes = |own: Finding| {
+        let seen = light(0.5).because(&light::DIVIDED_BY_LIGHTS, "y");
+        let made = Made::new().with("light/c", seen).with("light/b", own);
+        let told = diagnose_proven(&made.evidence(), &planted).headlines.into_iter();
+        told.map(|headline| headline.cause).collect::<Vec<_>>()
+    };
+    let not_a_number = failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");
+    assert!(!causes(not_a_number).contains(&light::DIVIDED_BY_LIGHTS.name.to_owned()));
+    assert_eq!(causes(light(0.5)), [light::DIVIDED_BY_LIGHTS.name]);
+}
+
+#[test]
+fn one_darkness_may_go_through_several_components() {
+    const NO_INDIRECT: Mistake = mistake("no-indirect", &integrator::NO_INDIRECT, "integrator/a");
+    let degree = |[own, others]: [f64; 2]| {
+        let dark = light(own).because(&integrator::NO_INDIRECT, "nothing from bounce 2 on");
+        let made = Made::new().with("integrator/a", dark);
+        let made = ["light/b", "light/c"].into_iter().fold(made, |m, c| m.with(c, light(others)));
+        let gives: &[(&[&str], _, _)] = &[(&["no-indirect"], "integrator/a", own)];
+        let bench = Bench { mistakes: &[NO_INDIRECT], gives };
+        let told = without_needless(&made.evidence(), &bench);
+        told.into_iter().find(|told| told.cause == NO_INDIRECT.cause.name).map(|told| told.degree)
+    };
+    assert_eq!(degree([0.0, 0.0]), Some(Degree::LooksLike));
+    assert_eq!(degree([0.3, 0.0]), Some(Degree::LooksLike), "some of it is left");
+    assert_eq!(degree([0.0, 0.5]), Some(Degree::Named));
+}

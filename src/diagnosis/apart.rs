@@ -60,7 +60,8 @@ pub(crate) fn diagnose_apart(
     // with many failures may take it, too: those with few come first.
     let mut order: Vec<_> = (0..views.len()).collect();
     order.sort_by_key(|number| views[*number].evidence.failures().count());
-    let sifted: Vec<_> = order.iter().map(|number| views[*number].sifted(planted)).collect();
+    let sifted = order.iter().map(|number| views[*number].sifted(planted));
+    let sifted: Vec<_> = sifted.map(|sifted| sifted.asking_of_darkness(first)).collect();
     let left = Sifted::of(&left, planted, made_in);
     let searched = order.iter().zip(sifted).enumerate().map(|(done, (number, sifted))| {
         planted.keep_for(order.len() - 1 - done + for_the_rest);

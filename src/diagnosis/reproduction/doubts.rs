@@ -216,7 +216,7 @@ impl<'a> Proof<'a> {
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
     /// mistake, or among twice as much in all parts: one mistake is all there is.
-    pub(super) fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
+    fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
         let explains = |one: &Headline, seen: &Observation<'_>| {
             one.explains.iter().any(|case| case == seen.case)
@@ -287,6 +287,12 @@ impl<'a> Proof<'a> {
         self.evidence.all_failures().any(stops)
     }
 
+    /// Causes of light that is lost or too weak, among far more that is dark and right with their mistakes.
+    pub(super) fn lost_among_the_dark(&self, told: &Ranked) -> Refuted {
+        let lost = self.lost_in_the_dark(told);
+        lost.into_iter().chain(self.dim_among_the_dark(told, &BTreeSet::new())).collect()
+    }
+
     /// What the search has found of darkness alone, and what is not the only one in sight.
     fn dark_and_not_alone(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
         let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
@@ -297,26 +303,19 @@ impl<'a> Proof<'a> {
 
     /// Causes of light that is too weak, but for those that rules suspected, where far more cases have none and their mistakes
     /// leave them right: whatever takes that light takes this, too.
-    pub(super) fn dim_among_the_dark(
-        &self,
-        told: &Ranked,
-        suspected: &BTreeSet<String>,
-    ) -> Refuted {
+    fn dim_among_the_dark(&self, told: &Ranked, suspected: &BTreeSet<String>) -> Refuted {
         let explained =
             |case: &str| told.with_cause().any(|one| one.explains.iter().any(|own| own == case));
         let dark = self.evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());
-        let dark = quickest(dark.filter(|seen| !explained(seen.case)), siblings::FAILED);
+        let dark = dark.filter(|seen| !explained(seen.case)).map(|seen| seen.case.to_owned());
+        let dark: Vec<_> = dark.collect();
         let is_dim = |one: &Headline| {
             let mut seen = one.explains.iter().filter_map(|case| self.evidence.failure_of(case));
             seen.all(|seen| seen.is_about_light() && seen.is_too_weak())
         };
         let is_lost = |one: &&Headline| {
-            let sets: Vec<_> = self.of(one).map(|mistake| vec![mistake]).collect();
-            let answers = self.weighed(&sets, &dark);
-            let right = (0..dark.len())
-                .filter(|number| siblings::is_passed_by_all(&answers, *number))
-                .count();
-            right >= siblings::OUTNUMBERED * one.explains.len().max(1)
+            let least = siblings::OUTNUMBERED * one.explains.len().max(1);
+            dark.len() >= least && self.are_right(one, &dark)
         };
         let found = told.with_cause().filter(|one| !suspected.contains(&one.cause));
         found.filter(|one| is_dim(one)).filter(is_lost).filter_map(all_of).flatten().collect()

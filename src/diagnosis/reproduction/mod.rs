@@ -119,8 +119,7 @@ pub(super) fn without_what_follows(
     let following = proof.symptoms_given_by_all(&told);
     told.follow(&following);
     // One darkness may go through several components.
-    let mut lost = proof.lost_in_the_dark(&told);
-    lost.extend(proof.dim_among_the_dark(&told, &BTreeSet::new()));
+    let lost = proof.lost_among_the_dark(&told);
     told.doubt(|headline| lost.iter().any(|(cause, _)| *cause == headline.cause));
     told
 }
@@ -151,6 +150,15 @@ impl<'a> Sifted<'a> {
         refuted.extend(proof.not_following(&ranked));
         let ranked = look(&refuted, &confirmed);
         Self { proof, refuted, ranked, confirmed }
+    }
+
+    /// Asks what the end asks of the darkness that was seen at `first`: the search may take all the time, and what was asked
+    /// before is known.
+    pub(super) fn asking_of_darkness(self, first: &Evidence<'_>) -> Self {
+        let planted = self.proof.planted;
+        let proof = Proof { evidence: first, planted, made_in: MadeIn::Unknown };
+        proof.lost_among_the_dark(&self.ranked);
+        self
     }
 
     /// The same with the mistakes that reproduce what has no name.

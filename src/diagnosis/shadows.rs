@@ -6,6 +6,7 @@ use super::{Degree, Evidence, RuledOut, Suspicion};
 use crate::case::{Role, Subject};
 use crate::cause::light;
 use crate::checks::{Finding, Measure};
+use crate::contract::Circumstances;
 use crate::image::CHANNELS;
 use crate::text::number::figure;
 
@@ -15,6 +16,12 @@ const BLOCKER: Role = Role::OccludedInPart;
 const WALL: Role = Role::OccludedInFull;
 /// Lights found by hemisphere sampling, looked at from far and from near.
 const FOUND: [Role; 2] = [Role::TiltedLightByHemisphere, Role::SlantedLightByHemisphere];
+
+/// Where light is found by rays that leave a surface, and not by light sampling.
+const FINDING_BY_RAYS: Circumstances = Circumstances::HEMISPHERE_SAMPLING
+    .union(Circumstances::INDIRECT_LIGHT)
+    .union(Circumstances::MIRROR)
+    .union(Circumstances::GLASS);
 
 /// The variance of one light sample under [`OPEN`].
 const NOISE: Role = Role::LightSamplingVariance;
@@ -84,15 +91,16 @@ fn some_arrive(mean: &Measure, variance: &Measure) -> bool {
 
 /// Open light is right, and nothing hides a light.
 fn no_shadows(evidence: &Evidence<'_>) -> Option<Suspicion> {
-    Some(nothing_hides_a_light(evidence)?).filter(|_| !are_dark_by_hemisphere(evidence))
+    nothing_hides_a_light(evidence).filter(|_| !are_dark_by_hemisphere(evidence))
 }
 
 /// Nothing hides a light, and no direction that was sampled finds one, though light sampling does.
 fn meeting_nothing(evidence: &Evidence<'_>) -> Option<Suspicion> {
     let no_shadows = nothing_hides_a_light(evidence)?;
     let (mut cases, mut told) = (no_shadows.cases, no_shadows.evidence);
-    let dark = evidence.failures().filter(|seen| seen.is_about_light() && seen.is_dark());
-    cases.extend(dark.map(|seen| seen.case.to_owned()));
+    let found = evidence.failures().filter(|seen| seen.circumstances.intersects(FINDING_BY_RAYS));
+    let dark = found.filter(|seen| seen.is_about_light() && seen.is_dark()).map(|seen| seen.case);
+    cases.extend(dark.map(str::to_owned));
     told.push("hemisphere sampling finds no light at all".to_owned());
     are_dark_by_hemisphere(evidence).then(|| Suspicion {
         cause: &light::SECONDARY_RAYS_LOST,
@@ -184,6 +192,8 @@ mod tests {
             let made =
                 Made::new().with(WALL, lit()).with(BLOCKER, found(1.6)).with(OPEN, passing());
             let made = made.with("integrator/a", bounces);
+            let made = made.with("light/b", found(0.0)).with("light/c", found(0.0));
+            let made = made.under("light/b", Circumstances::HEMISPHERE_SAMPLING);
             FOUND.into_iter().fold(made, |made, role| made.with(role, found(by_hemisphere)))
         };
         let told = |by_hemisphere: f64| {
@@ -193,6 +203,9 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         assert_eq!(told(0.0), [light::SECONDARY_RAYS_LOST.name]);
+        let dark = &diagnose(&made(0.0).evidence()).headlines[0].explains;
+        assert!(dark.contains(&"light/b".to_owned()), "{dark:?}");
+        assert!(!dark.contains(&"light/c".to_owned()), "light sampling traces no such ray");
         assert_eq!(told(0.7), [light::NO_SHADOWS.name, integrator::NO_INDIRECT.name]);
     }
 

@@ -285,7 +285,7 @@ impl<'a> Proof<'a> {
 }
 
 /// Whether every one of these sets passes a case, as far as that is known.
-pub(super) fn is_passed_by_all(of_sets: &[Vec<Option<Finding>>], case: usize) -> bool {
+fn is_passed_by_all(of_sets: &[Vec<Option<Finding>>], case: usize) -> bool {
     let mut known = of_sets.iter().filter_map(|of_set| of_set[case].as_ref()).peekable();
     known.peek().is_some() && known.all(|answer| answer.verdict == Verdict::Pass)
 }

@@ -60,7 +60,7 @@ fn unmended(of: &Transplants) -> impl Iterator<Item = String> {
     let stay = stay.map(|stay| format!("{stay}, whatever is taken from the bench: {cases}"));
     let untried = (of.untried > 0).then(|| {
         format!(
-            "of {} this is not known: there was no time for more trials, or the case takes nothing from the bench",
+            "of {} this is not known: there was no time for more trials, their error is too small for a quick look, or the case takes nothing from the bench",
             count(of.untried, "failure")
         )
     });

@@ -225,12 +225,16 @@ fn passes(ended: Status) -> Option<bool> {
 }
 
 /// Whether something is so wrong that it would still fail were its error and its noise that many times as large as what is
-/// seen of them.
+/// seen of them. A picture fails by its standard errors; how bright it is only tells what they are of, down to the last
+/// digit of a sky without noise.
 pub(in crate::run) fn is_gross(finding: &Finding, coarser: f64) -> bool {
-    finding.failed_measures().any(|measure| {
+    let counts_errors = |measure: &&Measure| measure.unit == STANDARD_ERRORS;
+    let is_picture = finding.measures.iter().any(|measure| counts_errors(&measure));
+    let mut judging = finding.failed_measures().filter(|one| !is_picture || counts_errors(one));
+    judging.any(|measure| {
         let Measure { measured, expected, allowed, .. } = measure;
         // A picture is screened by half of the runs that confirm it.
-        let coarser = if measure.unit == STANDARD_ERRORS { SQRT_2 * coarser } else { coarser };
+        let coarser = if is_picture { SQRT_2 * coarser } else { coarser };
         let is_far = |noise: f64| (measured - expected).abs() > coarser * (allowed + noise);
         measure.noise().is_some_and(is_far)
     })
@@ -283,6 +287,16 @@ mod tests {
         assert!(!is_gross(&of(1.5, 0.2), 2.5));
         assert!(!is_gross(&of(1.1, 0.0), 2.5));
         assert!(!is_gross(&of(f64::NAN, 0.1), 2.5));
+        let sky = Measure {
+            interval: Some([0.999_994, 0.999_996]),
+            ..Measure::exact("sky", 0.999_995, 1.0, 0.0)
+        };
+        let picture = |errors: f64| {
+            let worst = Measure::exact("worst tile", errors, 0.0, 9.0).in_unit(STANDARD_ERRORS);
+            Finding::of("", "", vec![sky.clone(), worst])
+        };
+        assert!(is_gross(&picture(50.0), 2.5));
+        assert!(!is_gross(&picture(14.0), 2.5), "how bright the sky is fails no picture");
         let exact = vec![Measure::exact("hits", 9.0, 1.0, 0.05)];
         assert!(
             !is_gross(&Finding::of("", "", exact), 2.5),

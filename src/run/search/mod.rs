@@ -80,17 +80,18 @@ pub(crate) fn search(
 
 fn found(takes: Components, again: &Again<'_>) -> Found {
     again.see_through_luck();
+    let is_judged = |number: &usize| again.failing[*number].1.outcome.finding().is_some();
+    let (judged, ended): (Vec<_>, Vec<_>) = (0..again.failing.len()).partition(is_judged);
     // What died or hung may hang again, for longer than others take, and so may what took longer than any may take here: it
     // comes last.
-    let is_short = |record: &TrialRecord| record.timing.seconds < LONGEST_TRIAL as f64;
-    let is_judged = |number: &usize| {
+    let is_short = |number: &usize| {
         let (_, record) = again.failing[*number];
-        record.outcome.finding().is_some() && is_short(record)
+        record.timing.seconds < LONGEST_TRIAL as f64
     };
-    let (judged_first, ended_last): (Vec<_>, Vec<_>) =
-        (0..again.failing.len()).partition(is_judged);
+    let (first, long): (Vec<_>, Vec<_>) =
+        again.failing_still(judged).into_iter().partition(is_short);
     let failures = Failures {
-        turns: [again.failing_still(judged_first), ended_last],
+        turns: [first, [long, ended].concat()],
         asks: &|number| asked_about(&again.failing[number].0.case),
         affordable: &|cases| {
             let prices: Vec<_> = cases.iter().map(|number| again.price(*number)).collect();
@@ -121,15 +122,20 @@ trait Tries {
 fn settled(takes: Components, mut failures: Failures<'_>, tries: &dyn Tries) -> Found {
     let mut closely = BTreeSet::new();
     let mut by_luck: Vec<usize> = Vec::new();
+    let mut prove = |with: Components, cases: &[usize]| tries.proven(with, cases);
     loop {
         let mut look = |with: Components, cases: &[usize]| tries.tried(with, cases, &closely);
         let mut found = smallest(takes, &failures, &mut look);
-        let spoiled = found.without_spoiled(&mut |with, cases| tries.proven(with, cases));
-        let (seen_closely, at_a_glance): (Vec<_>, Vec<_>) =
-            spoiled.into_iter().partition(|case| closely.contains(case) || !tries.is_rough(*case));
-        failures.leave_out(&seen_closely);
-        by_luck.extend(&seen_closely);
-        if seen_closely.is_empty() && at_a_glance.is_empty() || tries.is_spent() {
+        let seen_closely = |case: &usize| closely.contains(case) || !tries.is_rough(*case);
+        let (unmended, mut at_a_glance): (Vec<_>, Vec<_>) =
+            found.without_spoiled(&mut prove).into_iter().partition(seen_closely);
+        let (elsewhere, glanced): (Vec<_>, Vec<_>) =
+            found.mended_by_luck(&mut prove).into_iter().partition(seen_closely);
+        at_a_glance.extend(&glanced);
+        failures.leave_out(&unmended);
+        by_luck.extend(&unmended);
+        if unmended.is_empty() && at_a_glance.is_empty() || tries.is_spent() {
+            found.leave_to_others(&[elsewhere, glanced].concat(), &mut prove);
             found.unmended.extend(by_luck);
             return found;
         }
@@ -235,6 +241,35 @@ impl Found {
             part.together.retain(stays);
         }
         failing
+    }
+
+    /// Of the few cases that a component mends alone those that it does not when `prove` looks: with another tree or other
+    /// random numbers a case may pass whatever is wrong. Many do not by luck.
+    fn mended_by_luck(&self, prove: Try<'_>) -> Vec<usize> {
+        let few = self.set.iter().filter(|part| part.alone.len() <= FEW);
+        few.flat_map(|part| prove(part.component, &part.alone).failing).collect()
+    }
+
+    /// Gives cases that passed by luck to the component that mends them alone when `prove` looks.
+    fn leave_to_others(&mut self, lucky: &[usize], prove: Try<'_>) {
+        for case in lucky {
+            let Some(from) = self.set.iter().position(|part| part.alone.contains(case)) else {
+                continue;
+            };
+            self.set[from].alone.retain(|other| other != case);
+            let mut others = (0..self.set.len()).filter(|place| *place != from);
+            let mends =
+                |place: &usize| prove(self.set[*place].component, &[*case]).passing.contains(case);
+            if let Some(to) = others.find(mends) {
+                self.set[from].together.retain(|other| other != case);
+                self.set[to].alone.push(*case);
+                self.set[to].together.push(*case);
+            }
+        }
+        let is_alone = |part: &Mending| part.alone.len() == part.together.len();
+        if !lucky.is_empty() && self.set.iter().all(is_alone) {
+            self.set.retain(|part| !part.together.is_empty());
+        }
     }
 }
 
@@ -635,6 +670,49 @@ mod tests {
             let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
             let found = settled(Components::all(), failures, &Lucky { is_rough });
             assert_eq!((counts(&found), found.unmended), (vec![(PATH, 1, 1)], vec![1]));
+        }
+    }
+
+    /// The path is wrong; the last case passes with other random numbers, too, until they are others again.
+    struct LuckyAlone {
+        is_rough: bool,
+        at_a_glance_only: bool,
+    }
+
+    impl Tries for LuckyAlone {
+        fn tried(&self, with: Components, cases: &[usize], closely: &BTreeSet<usize>) -> Tried {
+            let is_lucky =
+                |case: &usize| *case == 2 && !(self.at_a_glance_only && closely.contains(case));
+            let lucky = with.contains(Components::RANDOM_NUMBERS);
+            let passes = |case: &&usize| with.contains(PATH) || lucky && is_lucky(case);
+            let (passing, failing) = cases.iter().partition(passes);
+            Tried { passing, failing, ..Tried::default() }
+        }
+
+        fn proven(&self, with: Components, cases: &[usize]) -> Tried {
+            trying(&[Some(PATH); 3])(with, cases)
+        }
+
+        fn is_rough(&self, _: usize) -> bool {
+            self.is_rough
+        }
+
+        fn is_spent(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn what_a_component_mends_alone_by_luck_is_left_to_the_one_that_mends_it() {
+        for is_rough in [false, true] {
+            for at_a_glance_only in [false, true] {
+                let turns = [vec![0, 1, 2], Vec::new()];
+                let failures =
+                    Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 3 };
+                let tries = LuckyAlone { is_rough, at_a_glance_only };
+                let found = settled(Components::all(), failures, &tries);
+                assert_eq!((counts(&found), found.unmended), (vec![(PATH, 3, 3)], vec![]));
+            }
         }
     }
 

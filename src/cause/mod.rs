@@ -111,6 +111,11 @@ pub(crate) fn brings_along(cause: &Cause, other: &Cause) -> bool {
             && [&light::NO_SHADOWS, &integrator::NO_INDIRECT].contains(&other)
 }
 
+/// Whether the second is how the first looks where nothing is graded: a hit behind the origin lies before t_min, too.
+pub(crate) fn shows_beside(cause: &Cause, other: &Cause) -> bool {
+    *cause == shape::HITS_BEHIND_ORIGIN && *other == shape::SEGMENT_START_IGNORED
+}
+
 /// Whether it tells what a number is, and not what made it so: a missing normalisation, or an answer that is never
 /// written, is a mistake itself.
 pub(crate) fn is_symptom(cause: &Cause) -> bool {

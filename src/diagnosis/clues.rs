@@ -14,11 +14,15 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     // What an image resembles has to be so of the other images too.
     for failure in failures.filter(|seen| !seen.is_about(Subject::Image)) {
         let Some(finding) = failure.finding else { continue };
-        let rivals = finding.clues.iter().filter(|clue| !clue.beside).count();
+        // A name that the glossary does not know comes from another version: it explains nothing here.
+        let known = finding.clues.iter().filter_map(|clue| Some((clue, cause::find(&clue.cause)?)));
+        // That a number is NaN says nothing where it is known what made it so.
+        let (symptoms, causes): (Vec<_>, Vec<_>) =
+            known.partition(|(_, cause)| cause::is_symptom(cause));
+        let clues = if causes.is_empty() { symptoms } else { causes };
+        let rivals = clues.iter().filter(|(clue, _)| !clue.beside).count();
         let mut weight = 1.0;
-        for clue in &finding.clues {
-            // A name that the glossary does not know comes from another version: it explains nothing here.
-            let Some(cause) = cause::find(&clue.cause) else { continue };
+        for (clue, cause) in clues {
             if is_not_enough(evidence, &clue.cause) {
                 continue;
             }

@@ -96,11 +96,16 @@ impl Ranked {
             (Some(told), Some(other)) => cause::brings_along(told, other),
             _ => false,
         };
+        let shows = |told: &Headline, other: &Headline| match (of(told), of(other)) {
+            (Some(told), Some(other)) => cause::shows_beside(told, other),
+            _ => false,
+        };
         let named = self.causes.iter().filter(|headline| headline.degree == Degree::Named);
         let named: Vec<_> = named.cloned().collect();
         for told in named {
             let brought = self.causes.extract_if(.., |other| brings(&told, other));
-            let beside = self.beside.extract_if(.., |other| brings(&told, other));
+            let is_of_it = |other: &mut Headline| brings(&told, other) || shows(&told, other);
+            let beside = self.beside.extract_if(.., is_of_it);
             let brought: Vec<_> = brought.chain(beside).collect();
             if let Some(told) = self.causes.iter_mut().find(|one| one.cause == told.cause) {
                 told.may_follow.extend(brought.into_iter().flat_map(|one| one.explains));
@@ -751,6 +756,18 @@ mod tests {
                 assert_eq!(only.may_follow, ["bvh/b"]);
             }
         }
+    }
+
+    #[test]
+    fn hits_behind_the_origin_are_told_once_though_they_lie_before_the_start_too() {
+        let made = Made::new()
+            .with("shape/a", failing("a").because(&shape::HITS_BEHIND_ORIGIN, "x"))
+            .with("shape/b", failing("b").because(&shape::SEGMENT_START_IGNORED, "y"));
+        assert_eq!(diagnose(&made.evidence()).headlines.len(), 2, "of two graded cases both");
+        let diagnosis = diagnose(&made.beside_the_grade("shape/b").evidence());
+        let [only] = &diagnosis.headlines[..] else { panic!("{diagnosis:?}") };
+        assert_eq!(only.cause, shape::HITS_BEHIND_ORIGIN.name);
+        assert_eq!(only.may_follow, ["shape/b"]);
     }
 
     #[test]

@@ -93,8 +93,10 @@ impl Check for MeanRadiance {
             let question = Question { brightest, ..self.question(row, seed.child(number), &info) };
             let judged = match question.judge(built.as_mut(), &effort) {
                 Err(CheckError::Core(error)) if divides_by_no_lights(&scene, &error) => {
-                    let finding = Finding::failure(error.to_string());
-                    return Ok(finding.because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS));
+                    let statement = error.to_string();
+                    return Ok(Finding::failure(&statement)
+                        .because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS)
+                        .because(&contract::NOT_A_NUMBER, statement));
                 }
                 judged => judged?,
             };

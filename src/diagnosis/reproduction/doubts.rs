@@ -81,6 +81,7 @@ impl<'a> Proof<'a> {
         let unproven = self.unproven_beside(told).into_iter();
         unfounded.extend(unproven.filter(|(cause, _)| !suspected.contains(*cause)));
         unfounded.extend(self.lost_in_a_crowd(told));
+        unfounded.extend(self.lost_among_symptoms(told));
         unfounded.extend(self.dark_and_not_alone(told, suspected));
         unfounded.extend(self.dim_among_the_dark(told, suspected));
         unfounded.extend(self.unlike_in_their_own(told));

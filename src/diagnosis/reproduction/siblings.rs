@@ -88,6 +88,24 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
+    /// Causes of a NaN or two among many more of their part that they leave right: what makes those makes these.
+    pub(super) fn lost_among_symptoms(&self, ranked: &Ranked) -> Refuted {
+        let shows = |case: &String, symptom: &Headline| {
+            let finding = self.evidence.failure_of(case).and_then(|seen| seen.finding);
+            finding.is_some_and(|found| found.clues.iter().any(|clue| clue.cause == symptom.cause))
+        };
+        let is_lost = |told: &&Headline| {
+            let alike = ranked.symptoms().filter(|symptom| symptom.cause != told.cause);
+            let alike =
+                alike.filter(|symptom| told.explains.iter().all(|case| shows(case, symptom)));
+            let others = alike.flat_map(|symptom| &symptom.explains);
+            let others = others.filter(|case| is_of_one_part(told, case)).count();
+            let (all, own) = (told.explains.len() + others, CROWD * told.explains.len());
+            all >= own && !self.is_needed(told)
+        };
+        ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
+    }
+
     /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise. Where it
     /// breaks the contract there, and nothing that is told does, what is named is none, too.
     pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {

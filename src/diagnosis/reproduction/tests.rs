@@ -888,6 +888,26 @@ fn a_mistake_whose_own_case_breaks_the_contract_as_nothing_told_does_is_not_ther
 }
 
 #[test]
+fn a_cause_of_one_nan_among_many_that_it_leaves_right_is_not_told() {
+    let nan = || failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");
+    let known = failing("NaN").because(&light::DIVIDED_BY_ZERO_LIGHTS, "no light");
+    let known = known.because(&contract::NOT_A_NUMBER, "NaN");
+    let planted = Bench { mistakes: &[], gives: &[] };
+    let degree = |others: &[&'static str]| {
+        let made = Made::new().with("light/a", known.clone());
+        let made = others.iter().fold(made, |made, case| made.with(*case, nan()));
+        let mut told = diagnose_proven(&made.evidence(), &planted).headlines.into_iter();
+        let zero_lights = &light::DIVIDED_BY_ZERO_LIGHTS;
+        told.find(|told| told.cause == zero_lights.name).map(|told| told.degree)
+    };
+    assert_eq!(degree(&[]), Some(Degree::Named), "that it is NaN is no rival");
+    assert_eq!(degree(&["light/b", "light/c"]), Some(Degree::Named));
+    let in_another_part = ["shape/b", "shape/c", "shape/d", "shape/e"];
+    assert_eq!(degree(&in_another_part), Some(Degree::Named));
+    assert_eq!(degree(&["light/b", "light/c", "light/d", "light/e"]), None);
+}
+
+#[test]
 fn one_darkness_may_go_through_several_components() {
     const NO_INDIRECT: Mistake = mistake("no-indirect", &integrator::NO_INDIRECT, "integrator/a");
     let degree = |[own, others]: [f64; 2]| {

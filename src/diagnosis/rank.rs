@@ -92,13 +92,12 @@ impl Ranked {
     /// along.
     fn without_what_others_bring(mut self) -> Self {
         let of = |headline: &Headline| cause::find(&headline.cause);
-        let brings = |told: &Headline, other: &Headline| match (of(told), of(other)) {
-            (Some(told), Some(other)) => cause::brings_along(told, other),
-            _ => false,
+        let both = |told: &Headline, other: &Headline| Some((of(told)?, of(other)?));
+        let brings = |told: &Headline, other: &Headline| {
+            both(told, other).is_some_and(|(told, other)| cause::brings_along(told, other))
         };
-        let shows = |told: &Headline, other: &Headline| match (of(told), of(other)) {
-            (Some(told), Some(other)) => cause::shows_beside(told, other),
-            _ => false,
+        let shows = |told: &Headline, other: &Headline| {
+            both(told, other).is_some_and(|(told, other)| cause::shows_beside(told, other))
         };
         let named = self.causes.iter().filter(|headline| headline.degree == Degree::Named);
         let named: Vec<_> = named.cloned().collect();

@@ -9,7 +9,7 @@ use crate::checks::law::{LOST_SAMPLES, lost_in_words};
 use crate::checks::phrase::{figure, percent, ratio_of};
 use crate::checks::{Check, CheckError, Context, Finding, Measure, Result, breach, check};
 use crate::contract::{
-    Acceleration, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
+    Acceleration, Breach, Capabilities, Conventions, CoreError, CoreInfo, DirectSampling,
     IntegratorSettings, Ray,
 };
 use crate::math::rng::Seed;
@@ -92,11 +92,11 @@ impl Check for MeanRadiance {
         for (number, row) in self.row.iter().enumerate() {
             let question = Question { brightest, ..self.question(row, seed.child(number), &info) };
             let judged = match question.judge(built.as_mut(), &effort) {
-                Err(CheckError::Core(error)) if divides_by_no_lights(&scene, &error) => {
-                    let statement = error.to_string();
-                    return Ok(Finding::failure(&statement)
-                        .because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS)
-                        .because(&contract::NOT_A_NUMBER, statement));
+                Err(CheckError::Core(CoreError::BrokeContract(breach)))
+                    if divides_by_no_lights(&scene, &breach) =>
+                {
+                    let finding = breach::failure(&breach);
+                    return Ok(finding.because(&light::DIVIDED_BY_ZERO_LIGHTS, NO_LIGHTS));
                 }
                 judged => judged?,
             };
@@ -129,8 +129,7 @@ impl Check for MeanRadiance {
 /// What speaks for a division by the number of lights.
 const NO_LIGHTS: &str = "radiance is not a number in a scene that has no light";
 
-fn divides_by_no_lights(scene: &SceneDescription, error: &CoreError) -> bool {
-    let CoreError::BrokeContract(breach) = error else { return false };
+fn divides_by_no_lights(scene: &SceneDescription, breach: &Breach) -> bool {
     scene.lights.is_empty() && breach::cause_of(breach) == Some(&contract::NOT_A_NUMBER)
 }
 

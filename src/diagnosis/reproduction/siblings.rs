@@ -88,7 +88,7 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
-    /// Causes of a NaN or two among many more of their part that they leave right: what makes those makes these.
+    /// Causes of a NaN or two among many more of their part that they do not explain: what makes those makes these.
     pub(super) fn lost_among_symptoms(&self, ranked: &Ranked) -> Refuted {
         let shows = |case: &String, symptom: &Headline| {
             let finding = self.evidence.failure_of(case).and_then(|seen| seen.finding);

@@ -888,7 +888,7 @@ fn a_mistake_whose_own_case_breaks_the_contract_as_nothing_told_does_is_not_ther
 }
 
 #[test]
-fn a_cause_of_one_nan_among_many_that_it_leaves_right_is_not_told() {
+fn a_cause_of_one_nan_among_many_that_it_does_not_explain_is_not_told() {
     let nan = || failing("NaN").because(&contract::NOT_A_NUMBER, "NaN");
     let known = failing("NaN").because(&light::DIVIDED_BY_ZERO_LIGHTS, "no light");
     let known = known.because(&contract::NOT_A_NUMBER, "NaN");

@@ -640,57 +640,28 @@ mod tests {
         assert_eq!(found, Found { set: Vec::new(), unmended: vec![0] });
     }
 
-    /// Of the first case the path is wrong; the second passes whenever the bench's random numbers are others than at first.
-    struct Lucky {
-        is_rough: bool,
-    }
-
-    impl Tries for Lucky {
-        fn tried(&self, with: Components, cases: &[usize], _: &BTreeSet<usize>) -> Tried {
-            trying(&[PATH, Components::RANDOM_NUMBERS].map(Some))(with, cases)
-        }
-
-        fn proven(&self, with: Components, cases: &[usize]) -> Tried {
-            trying(&[Some(PATH), None])(with, cases)
-        }
-
-        fn is_rough(&self, _: usize) -> bool {
-            self.is_rough
-        }
-
-        fn is_spent(&self) -> bool {
-            false
-        }
-    }
-
-    #[test]
-    fn what_passes_by_luck_is_mended_by_nothing() {
-        for is_rough in [false, true] {
-            let turns = [vec![0, 1], Vec::new()];
-            let failures = Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 2 };
-            let found = settled(Components::all(), failures, &Lucky { is_rough });
-            assert_eq!((counts(&found), found.unmended), (vec![(PATH, 1, 1)], vec![1]));
-        }
-    }
-
-    /// The path is wrong; the last case passes with other random numbers, too, until they are others again.
-    struct LuckyAlone {
+    /// A core each of whose cases passes with these; the last, until they are others again, with other random numbers, too.
+    struct Lucky<'a> {
+        needs: &'a [Option<Components>],
         is_rough: bool,
         at_a_glance_only: bool,
     }
 
-    impl Tries for LuckyAlone {
+    impl Tries for Lucky<'_> {
         fn tried(&self, with: Components, cases: &[usize], closely: &BTreeSet<usize>) -> Tried {
-            let is_lucky =
-                |case: &usize| *case == 2 && !(self.at_a_glance_only && closely.contains(case));
-            let lucky = with.contains(Components::RANDOM_NUMBERS);
-            let passes = |case: &&usize| with.contains(PATH) || lucky && is_lucky(case);
-            let (passing, failing) = cases.iter().partition(passes);
+            let Tried { mut passing, failing, .. } = self.proven(with, cases);
+            let is_lucky = |case: &usize| {
+                case + 1 == self.needs.len()
+                    && with.contains(Components::RANDOM_NUMBERS)
+                    && !(self.at_a_glance_only && closely.contains(case))
+            };
+            let (lucky, failing): (Vec<_>, _) = failing.into_iter().partition(is_lucky);
+            passing.extend(lucky);
             Tried { passing, failing, ..Tried::default() }
         }
 
         fn proven(&self, with: Components, cases: &[usize]) -> Tried {
-            trying(&[Some(PATH); 3])(with, cases)
+            trying(self.needs)(with, cases)
         }
 
         fn is_rough(&self, _: usize) -> bool {
@@ -699,20 +670,34 @@ mod tests {
 
         fn is_spent(&self) -> bool {
             false
+        }
+    }
+
+    /// What is found where the last case may pass by luck, whether it is looked at closely at first or at a glance, and
+    /// passes so at a glance alone or always.
+    fn found_with_luck(needs: &[Option<Components>]) -> Vec<Found> {
+        let looks = [(false, false), (false, true), (true, false), (true, true)];
+        let found = |(is_rough, at_a_glance_only)| {
+            let turns = [(0..needs.len()).collect(), Vec::new()];
+            let affordable = |_: &[usize]| needs.len();
+            let failures =
+                Failures { turns, asks: &|_| Components::empty(), affordable: &affordable };
+            settled(Components::all(), failures, &Lucky { needs, is_rough, at_a_glance_only })
+        };
+        looks.map(found).into()
+    }
+
+    #[test]
+    fn what_passes_by_luck_is_mended_by_nothing() {
+        for found in found_with_luck(&[Some(PATH), None]) {
+            assert_eq!((counts(&found), found.unmended), (vec![(PATH, 1, 1)], vec![1]));
         }
     }
 
     #[test]
     fn what_a_component_mends_alone_by_luck_is_left_to_the_one_that_mends_it() {
-        for is_rough in [false, true] {
-            for at_a_glance_only in [false, true] {
-                let turns = [vec![0, 1, 2], Vec::new()];
-                let failures =
-                    Failures { turns, asks: &|_| Components::empty(), affordable: &|_| 3 };
-                let tries = LuckyAlone { is_rough, at_a_glance_only };
-                let found = settled(Components::all(), failures, &tries);
-                assert_eq!((counts(&found), found.unmended), (vec![(PATH, 3, 3)], vec![]));
-            }
+        for found in found_with_luck(&[Some(PATH); 3]) {
+            assert_eq!((counts(&found), found.unmended), (vec![(PATH, 3, 3)], vec![]));
         }
     }
 

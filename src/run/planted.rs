@@ -126,6 +126,8 @@ pub(super) struct PlantedFaults<'a> {
     silent: Mutex<BTreeSet<String>>,
     /// First pictures, as words.
     glances: Mutex<BTreeMap<Asked, Option<String>>>,
+    /// What each question took.
+    prices: Mutex<BTreeMap<Asked, u64>>,
 }
 
 /// The bench for a glance at a picture, for a first look, and for the one that counts.
@@ -188,6 +190,7 @@ impl<'a> PlantedFaults<'a> {
             known: Mutex::default(),
             silent: Mutex::default(),
             glances: Mutex::default(),
+            prices: Mutex::default(),
         }
     }
 
@@ -261,12 +264,24 @@ impl<'a> PlantedFaults<'a> {
         (ended.outcome.finding().cloned(), price(&ended))
     }
 
+    /// What is to be tried for an answer: what was looked at closely needs no first look.
+    fn asked(&self, question: &Question<'_>) -> Asked {
+        let asked = Asked::of(question);
+        let closely = Asked { roughly: false, ..asked.clone() };
+        let is_known = self.known().get(&closely).is_some_and(Option::is_some);
+        if is_known { closely } else { asked }
+    }
+
     fn silent(&self) -> MutexGuard<'_, BTreeSet<String>> {
         self.silent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn glances(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<String>>> {
         self.glances.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn prices(&self) -> MutexGuard<'_, BTreeMap<Asked, u64>> {
+        self.prices.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<Finding>>> {
@@ -317,18 +332,26 @@ impl Planted for PlantedFaults<'_> {
         variant::core(&joined(mistakes)).is_ok()
     }
 
+    fn price(&self, question: &Question<'_>) -> u64 {
+        self.prices().get(&self.asked(question)).copied().unwrap_or(0)
+    }
+
     fn keep_for(&self, others: usize) {
         self.purse.keep_for(others);
     }
 
     fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
-        let all: Vec<_> = questions.iter().map(Asked::of).collect();
+        let all: Vec<_> = questions.iter().map(|question| self.asked(question)).collect();
         let mut new: Vec<_> =
             all.iter().filter(|asked| !self.known().contains_key(asked)).collect();
         let mut seen = BTreeSet::new();
         new.retain(|asked| seen.insert(*asked));
-        let answers =
-            self.purse.pay_each(self.plan.jobs(), new.len(), &|place| self.try_out(new[place]));
+        let answers = self.purse.pay_each(self.plan.jobs(), new.len(), &|place| {
+            let (answer, price) = self.try_out(new[place]);
+            ((answer, price), price)
+        });
+        let (answers, prices): (Vec<_>, Vec<_>) = answers.into_iter().unzip();
+        self.prices().extend(new.iter().copied().cloned().zip(prices));
         self.known().extend(new.into_iter().cloned().zip(answers));
         let known = self.known();
         all.iter().map(|asked| known.get(asked).cloned().flatten()).collect()
@@ -406,5 +429,25 @@ mod tests {
         let asked = Question { mistakes, case: PICTURE, with, roughly: true };
         let answers = planted.ask(&[asked]);
         assert!(answers[0].as_ref().unwrap().failed());
+    }
+
+    #[test]
+    fn what_was_looked_at_closely_takes_no_first_look() {
+        const CASE: &str = "bsdf/sampling-agrees-with-evaluation";
+        let plan = plan_of(CASE);
+        let planted = PlantedFaults::new(&plan, &plan.bench(), [].iter(), 0);
+        let named = |one: &&Mistake| one.name == "brdf-without-pi";
+        let mistakes = vec![*planted.mistakes().iter().find(named).unwrap()];
+        let question = |roughly| Question {
+            mistakes: mistakes.clone(),
+            case: CASE,
+            with: Components::empty(),
+            roughly,
+        };
+        let closely = planted.ask(&[question(false)]);
+        let left = planted.purse.left();
+        assert_eq!(planted.ask(&[question(true)]), closely);
+        assert_eq!(planted.purse.left(), left);
+        assert!(closely[0].is_some() && planted.price(&question(true)) > 0);
     }
 }

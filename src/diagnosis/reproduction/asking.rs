@@ -6,9 +6,12 @@ use crate::case::Subject;
 use crate::checks::Finding;
 use crate::diagnosis::rank::Ranked;
 use crate::diagnosis::{Degree, Headline, Observation};
+use std::slice;
 
 /// Of cases that ask the bench's own core for more, few are tried: a second of a processor, about (`contract::Work`).
 const COSTLY: u64 = 15_000_000;
+/// Sets of mistakes that are put to a case to learn what it asks of them.
+const SAMPLED: usize = 2;
 
 impl<'a> Proof<'a> {
     /// A mistake of each cause that is named.
@@ -38,14 +41,25 @@ impl<'a> Proof<'a> {
     /// Those sets that a first look at each case does not tell from the core.
     pub(super) fn likely_at_first(
         &self,
-        sets: Vec<Vec<Mistake>>,
+        mut sets: Vec<Vec<Mistake>>,
         cases: &[&Observation<'a>],
     ) -> Vec<Vec<Mistake>> {
-        let at_first = likenesses(cases, &self.glimpsed(&sets, cases));
-        let may_give = |(_, of_set): &(_, Vec<Likeness>)| {
-            of_set.iter().all(|likeness| likeness.may_be_reproduced())
-        };
-        sets.into_iter().zip(at_first).filter(may_give).map(|(set, _)| set).collect()
+        for seen in self.cheapest_first(&sets, cases) {
+            let mut likely = self.are_likely_at_first(&sets, seen).into_iter();
+            sets.retain(|_| likely.next() == Some(true));
+        }
+        sets
+    }
+
+    /// Which sets a first look at a case does not tell from the core.
+    pub(super) fn are_likely_at_first(
+        &self,
+        sets: &[Vec<Mistake>],
+        seen: &Observation<'a>,
+    ) -> Vec<bool> {
+        let cases = slice::from_ref(&seen);
+        let at_first = likenesses(cases, &self.glimpsed(sets, cases));
+        at_first.into_iter().map(|of_set| of_set[0].may_be_reproduced()).collect()
     }
 
     /// The planted mistakes of a headline's cause.
@@ -84,6 +98,31 @@ impl<'a> Proof<'a> {
         quickest(cases.iter().filter_map(|case| self.evidence.failure_of(case)), CASES)
     }
 
+    /// Those first that ask little of some of these sets, where there are many: few are left for the others. What a case asked
+    /// of the core says nothing of that: a gross error ends it early, and what passes it is asked all.
+    pub(super) fn cheapest_first<'s>(
+        &self,
+        sets: &[Vec<Mistake>],
+        cases: &[&'s Observation<'a>],
+    ) -> Vec<&'s Observation<'a>> {
+        if sets.len() <= CASES || cases.len() < 2 || self.fails_images_alone() {
+            return cases.to_vec();
+        }
+        // Neighbours in the list of mistakes are alike.
+        let apart = (sets.len() / SAMPLED).max(1);
+        let price = |(place, seen): (usize, &&'s Observation<'a>)| -> u64 {
+            let some: Vec<_> =
+                sets.iter().skip(place).step_by(apart).take(SAMPLED).cloned().collect();
+            self.glimpsed(&some, slice::from_ref(seen));
+            let question = |set| question(set, seen, is_noisy(seen));
+            some.iter().map(|set| self.planted.price(&question(set))).sum()
+        };
+        let prices = cases.iter().enumerate().map(price);
+        let mut priced: Vec<_> = prices.zip(cases.iter().copied()).collect();
+        priced.sort_by_key(|(price, _)| *price);
+        priced.into_iter().map(|(_, seen)| seen).collect()
+    }
+
     /// For each set of mistakes, how it compares in each case.
     pub(super) fn compare(
         &self,
@@ -118,10 +157,6 @@ impl<'a> Proof<'a> {
         sets: &[Vec<Mistake>],
         cases: &[&Observation<'a>],
     ) -> Vec<Vec<Option<Finding>>> {
-        let is_noisy = |seen: &Observation<'_>| {
-            let mut measures = seen.finding.into_iter().flat_map(|finding| &finding.measures);
-            measures.any(|measure| measure.interval.is_some())
-        };
         self.asked(sets, cases, is_noisy)
     }
 
@@ -131,17 +166,24 @@ impl<'a> Proof<'a> {
         cases: &[&Observation<'a>],
         roughly: impl Fn(&Observation<'_>) -> bool,
     ) -> Vec<Vec<Option<Finding>>> {
-        let question = |set: &Vec<Mistake>, seen: &&Observation<'a>| Question {
-            mistakes: set.clone(),
-            case: seen.case,
-            with: seen.with,
-            roughly: roughly(seen),
+        let of_set = |set: &Vec<Mistake>| -> Vec<_> {
+            cases.iter().map(|seen| question(set, seen, roughly(seen))).collect()
         };
-        let questions: Vec<_> =
-            sets.iter().flat_map(|set| cases.iter().map(move |seen| question(set, seen))).collect();
+        let questions: Vec<_> = sets.iter().flat_map(of_set).collect();
         let mut answers = self.planted.ask(&questions).into_iter();
         sets.iter().map(|_| answers.by_ref().take(cases.len()).collect()).collect()
     }
+}
+
+/// What the core was asked in a case, of these mistakes.
+fn question<'q>(set: &[Mistake], seen: &Observation<'q>, roughly: bool) -> Question<'q> {
+    Question { mistakes: set.to_vec(), case: seen.case, with: seen.with, roughly }
+}
+
+/// Whether its numbers are known within their noise.
+fn is_noisy(seen: &Observation<'_>) -> bool {
+    let mut measures = seen.finding.into_iter().flat_map(|finding| &finding.measures);
+    measures.any(|measure| measure.interval.is_some())
 }
 
 /// How the answers of each set of mistakes compare, case by case.

@@ -62,6 +62,11 @@ pub(crate) trait Planted {
         true
     }
 
+    /// What it took to answer a question; nothing if it was not asked.
+    fn price(&self, _question: &Question<'_>) -> u64 {
+        0
+    }
+
     /// Keeps as much time for each of so many others as for what is asked next.
     fn keep_for(&self, _others: usize) {}
 

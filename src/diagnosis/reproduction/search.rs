@@ -284,8 +284,8 @@ impl<'a> Proof<'a> {
         self.where_needed(found, told, cases)
     }
 
-    /// Failures without a cause of which all that is named together gives the numbers; if it gives those of all that are
-    /// asked, all of them.
+    /// Failures without a cause of which all that is named together gives the numbers, or that it leaves as dark as they are;
+    /// if it gives all that are asked, and not only darkness, all of them.
     pub(super) fn given_by_all(&self, told: &Ranked) -> Vec<String> {
         let named = self.named(told);
         let left: Vec<_> = told.differing().cloned().collect();
@@ -295,9 +295,15 @@ impl<'a> Proof<'a> {
             return Vec::new();
         }
         let answers = self.compare(&[named], &asked).remove(0);
-        let given = asked.iter().zip(answers).filter(|(_, of)| *of == Likeness::Same);
+        let gives_numbers = answers.contains(&Likeness::Same);
+        // Nothing else need take a light that what is named takes.
+        let is_given = |(seen, of): &(&&Observation<'_>, Likeness)| match of {
+            Likeness::Unsized => seen.is_dark(),
+            of => *of == Likeness::Same,
+        };
+        let given = asked.iter().zip(answers).filter(is_given);
         let given: Vec<_> = given.map(|(seen, _)| seen.case.to_owned()).collect();
-        if given.len() == asked.len() { left } else { given }
+        if gives_numbers && given.len() == asked.len() { left } else { given }
     }
 
     /// Cases with NaN, infinite or negative numbers that all that is named gives together, too.
@@ -396,12 +402,11 @@ impl<'a> Proof<'a> {
         let tried = |fitting: &[(&Vec<Mistake>, bool)]| -> Vec<_> {
             fitting.iter().map(|(set, _)| (*set).clone()).collect()
         };
-        // The quickest case leaves few for the others, and a first look leaves few for the second.
-        for seen in cases {
+        // A first look leaves few for the second.
+        for seen in self.cheapest_first(sets, cases) {
             if fitting.len() > CASES {
-                let at_first = likenesses(&[seen], &self.glimpsed(&tried(&fitting), &[seen]));
-                let mut at_first = at_first.into_iter();
-                fitting.retain(|_| at_first.next().is_some_and(|of| of[0].may_be_reproduced()));
+                let mut likely = self.are_likely_at_first(&tried(&fitting), seen).into_iter();
+                fitting.retain(|_| likely.next() == Some(true));
             }
             let answers = self.compare(&tried(&fitting), &[seen]).into_iter().map(|of| of[0]);
             let fits = fitting.into_iter().zip(answers).filter(|(_, of)| of.is_reproduced());

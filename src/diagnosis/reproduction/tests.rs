@@ -231,6 +231,22 @@ fn a_cause_of_darkness_that_all_others_leave_dark_is_not_told() {
 }
 
 #[test]
+fn what_a_named_mistake_leaves_dark_as_it_is_follows_from_it() {
+    let gives: [(&[&str], &str, f64); 3] =
+        [(&["pi"], "bsdf/a", 2.0), (&["pi"], "light/b", 0.0), (&["cosine"], "light/b", 0.0)];
+    let planted = Bench { mistakes: &[PI, COSINE], gives: &gives };
+    let unexplained = |of_b: Finding| {
+        let seen = light(2.0).because(&bsdf::WITHOUT_PI, "too bright");
+        let made = Made::new().with("bsdf/a", seen).with("light/b", of_b);
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
+        diagnosis.unexplained
+    };
+    assert!(unexplained(light(0.0)).is_empty());
+    assert_eq!(unexplained(failing("no answer")), ["light/b"], "that is no darkness");
+}
+
+#[test]
 fn darkness_is_named_where_one_mistake_alone_leaves_it_and_its_neighbours_light() {
     const OTHER: Mistake = mistake("other", &light::WORLD_COSINE, "light/c");
     let causes = |by_other: f64, neighbours: usize| {
@@ -301,6 +317,43 @@ fn a_first_look_leaves_few_mistakes_for_the_second() {
     let diagnosis = diagnose_proven(&made.evidence(), &bench);
     assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
     assert_eq!(bench.asked.into_inner().unwrap(), BTreeSet::from(["1.8"]));
+}
+
+/// The same, and which of them were asked in a case that takes more than others.
+struct Dear {
+    factors: Factors,
+    case: &'static str,
+}
+
+impl Planted for Dear {
+    fn mistakes(&self) -> &[Mistake] {
+        &self.factors.mistakes
+    }
+
+    fn price(&self, question: &Question<'_>) -> u64 {
+        if question.case == self.case { 2 } else { 1 }
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let of_case = questions.iter().filter(|question| question.case == self.case);
+        self.factors.asked.lock().unwrap().extend(of_case.map(|one| one.mistakes[0].name));
+        questions.iter().map(|one| Some(light(one.mistakes[0].name.parse().unwrap()))).collect()
+    }
+}
+
+#[test]
+fn a_dear_case_is_asked_of_what_a_cheaper_one_leaves() {
+    let of = |name| mistake(name, &bsdf::WITHOUT_PI, "light/b");
+    let names = ["1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "2.0", "2.1"];
+    for case in ["light/b", "light/c"] {
+        let made = Made::new().with("light/b", light(1.8)).with("light/c", light(1.8));
+        let factors = Factors { mistakes: names.map(of).to_vec(), asked: Default::default() };
+        let bench = Dear { factors, case };
+        let diagnosis = diagnose_proven(&made.evidence(), &bench);
+        assert_eq!(diagnosis.headlines[0].cause, bsdf::WITHOUT_PI.name);
+        let asked = bench.factors.asked.into_inner().unwrap();
+        assert!(asked.contains("1.8") && asked.len() < names.len() / 2, "{case}: {asked:?}");
+    }
 }
 
 /// Of one mistake in two places, one fails what the other passes, without a number.

@@ -10,7 +10,7 @@ use crate::run::outcome::Status;
 use crate::run::plan::Trial;
 use crate::run::purse::{LONGEST_TRIAL, Purse, price};
 use crate::run::record::TrialRecord;
-use crate::stats::{Allowance, Budget};
+use crate::stats::{Allowance, Budget, TestKind};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::SQRT_2;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -230,7 +230,11 @@ fn passes(ended: Status) -> Option<bool> {
 pub(in crate::run) fn is_gross(finding: &Finding, coarser: f64) -> bool {
     let counts_errors = |measure: &&Measure| measure.unit == STANDARD_ERRORS;
     let is_picture = finding.measures.iter().any(|measure| counts_errors(&measure));
-    let mut judging = finding.failed_measures().filter(|one| !is_picture || counts_errors(one));
+    // A slope over fewer counts is another number, and no noisier one.
+    let is_slope = |one: &Measure| one.hypothesis.is_some_and(|of| of.kind == TestKind::Slope);
+    let mut judging = finding
+        .failed_measures()
+        .filter(|one| !is_slope(one) && (!is_picture || counts_errors(one)));
     judging.any(|measure| {
         let Measure { measured, expected, allowed, .. } = measure;
         // A picture is screened by half of the runs that confirm it.
@@ -251,6 +255,7 @@ pub(in crate::run) fn without_patience(bench: &Bench) -> Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::Hypothesis;
 
     #[test]
     fn what_passes_with_some_components_passes_with_more_and_is_proven_with_all_of_them() {
@@ -297,6 +302,10 @@ mod tests {
         };
         assert!(is_gross(&picture(50.0), 2.5));
         assert!(!is_gross(&picture(14.0), 2.5), "how bright the sky is fails no picture");
+        let slope = of(1.5, 0.1).measures.remove(0);
+        let hypothesis = Some(Hypothesis::new(TestKind::Slope, false));
+        let slope = vec![Measure { hypothesis, ..slope }];
+        assert!(!is_gross(&Finding::of("", "", slope), 2.5), "fewer counts have another slope");
         let exact = vec![Measure::exact("hits", 9.0, 1.0, 0.05)];
         assert!(
             !is_gross(&Finding::of("", "", exact), 2.5),

@@ -207,7 +207,7 @@ fn a_run_ends_with_what_to_do() {
         "run camera/rays-pass bvh/flat-boxes --core textbook --report runs -q --project CASES",
         "run bsdf/diffuse --core textbook:brdf-without-pi --budget quick --report runs --project CASES",
         "run bvh/flat-boxes --core textbook:flat-box-missed --report runs --project CASES",
-        "run shape/distant-spheres shape/ray-sphere-hit-is --core textbook:sphere-near-root-only --report runs --project CASES",
+        "run shape/distant-spheres shape/ray-sphere-hit-is --core textbook:sphere-near-root-only -j 1 --report runs --project CASES",
         "run shape/ --core textbook:sphere-far-root --report runs -q --project CASES",
         "run shape/ --core textbook:sphere-far-root --report runs --fail-fast -j 1 --project CASES",
         "run camera/rays-pass --core textbook --core textbook:camera-transposed --report runs --project CASES",

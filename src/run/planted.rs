@@ -62,6 +62,15 @@ impl Asked {
     }
 }
 
+/// What came of it.
+#[derive(Clone, Debug)]
+struct Answer {
+    /// Nothing where mistakes exclude each other or take too long.
+    finding: Option<Finding>,
+    /// What it took, in the work of a purse.
+    price: u64,
+}
+
 /// A mistake that some case is known to catch: planted, it fails that case (`tests/faults.rs`).
 pub(crate) struct Excluded {
     /// `textbook:NAME` makes it.
@@ -121,13 +130,11 @@ pub(super) struct PlantedFaults<'a> {
     counting_samples: Looks,
     mistakes: Vec<Mistake>,
     purse: Purse,
-    known: Mutex<BTreeMap<Asked, Option<Finding>>>,
+    known: Mutex<BTreeMap<Asked, Answer>>,
     /// Mistakes that make the core so slow that it was not waited for. Whoever answers is not that slow.
     silent: Mutex<BTreeSet<String>>,
     /// First pictures, as words.
     glances: Mutex<BTreeMap<Asked, Option<String>>>,
-    /// What each question took.
-    prices: Mutex<BTreeMap<Asked, u64>>,
 }
 
 /// The bench for a glance at a picture, for a first look, and for the one that counts.
@@ -190,7 +197,6 @@ impl<'a> PlantedFaults<'a> {
             known: Mutex::default(),
             silent: Mutex::default(),
             glances: Mutex::default(),
-            prices: Mutex::default(),
         }
     }
 
@@ -235,11 +241,11 @@ impl<'a> PlantedFaults<'a> {
     fn of_the_right_core(&self, asked: &Asked) -> Option<Finding> {
         let asked = asked.without_mistakes();
         if let Some(known) = self.known().get(&asked) {
-            return known.clone();
+            return known.finding.clone();
         }
-        let (answer, _) = self.run(&asked, |looks| &looks.roughly);
-        self.known().insert(asked, answer.clone());
-        answer
+        let (finding, price) = self.run(&asked, |looks| &looks.roughly);
+        self.known().insert(asked, Answer { finding: finding.clone(), price });
+        finding
     }
 
     /// Mistakes that exclude each other, those that take too long, and cases that were not selected, have no answer.
@@ -268,7 +274,7 @@ impl<'a> PlantedFaults<'a> {
     fn asked(&self, question: &Question<'_>) -> Asked {
         let asked = Asked::of(question);
         let closely = Asked { roughly: false, ..asked.clone() };
-        let is_known = self.known().get(&closely).is_some_and(Option::is_some);
+        let is_known = self.known().get(&closely).is_some_and(|answer| answer.finding.is_some());
         if is_known { closely } else { asked }
     }
 
@@ -280,11 +286,7 @@ impl<'a> PlantedFaults<'a> {
         self.glances.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn prices(&self) -> MutexGuard<'_, BTreeMap<Asked, u64>> {
-        self.prices.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Option<Finding>>> {
+    fn known(&self) -> MutexGuard<'_, BTreeMap<Asked, Answer>> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -333,7 +335,8 @@ impl Planted for PlantedFaults<'_> {
     }
 
     fn price(&self, question: &Question<'_>) -> u64 {
-        self.prices().get(&self.asked(question)).copied().unwrap_or(0)
+        let asked = self.asked(question);
+        self.known().get(&asked).map_or(0, |answer| answer.price)
     }
 
     fn keep_for(&self, others: usize) {
@@ -347,14 +350,12 @@ impl Planted for PlantedFaults<'_> {
         let mut seen = BTreeSet::new();
         new.retain(|asked| seen.insert(*asked));
         let answers = self.purse.pay_each(self.plan.jobs(), new.len(), &|place| {
-            let (answer, price) = self.try_out(new[place]);
-            ((answer, price), price)
+            let (finding, price) = self.try_out(new[place]);
+            (Answer { finding, price }, price)
         });
-        let (answers, prices): (Vec<_>, Vec<_>) = answers.into_iter().unzip();
-        self.prices().extend(new.iter().copied().cloned().zip(prices));
         self.known().extend(new.into_iter().cloned().zip(answers));
         let known = self.known();
-        all.iter().map(|asked| known.get(asked).cloned().flatten()).collect()
+        all.iter().map(|asked| known.get(asked)?.finding.clone()).collect()
     }
 }
 

@@ -10,8 +10,9 @@ use std::slice;
 
 /// Of cases that ask the bench's own core for more, few are tried: a second of a processor, about (`contract::Work`).
 const COSTLY: u64 = 15_000_000;
-/// Sets of mistakes that are put to a case to learn what it asks of them.
-const SAMPLED: usize = 2;
+/// Sets of mistakes that are put to a case to learn what it asks of them. One says little: of two in one case one took a
+/// fourteenth of the other (docs/decisions/0015, 35).
+pub(super) const SAMPLED: usize = 2;
 
 impl<'a> Proof<'a> {
     /// A mistake of each cause that is named.
@@ -108,11 +109,8 @@ impl<'a> Proof<'a> {
         if sets.len() <= CASES || cases.len() < 2 || self.fails_images_alone() {
             return cases.to_vec();
         }
-        // Neighbours in the list of mistakes are alike.
-        let apart = (sets.len() / SAMPLED).max(1);
         let price = |(place, seen): (usize, &&'s Observation<'a>)| -> u64 {
-            let some: Vec<_> =
-                sets.iter().skip(place).step_by(apart).take(SAMPLED).cloned().collect();
+            let some = sample(sets, place);
             self.glimpsed(&some, slice::from_ref(seen));
             let question = |set| question(set, seen, is_noisy(seen));
             some.iter().map(|set| self.planted.price(&question(set))).sum()
@@ -173,6 +171,13 @@ impl<'a> Proof<'a> {
         let mut answers = self.planted.ask(&questions).into_iter();
         sets.iter().map(|_| answers.by_ref().take(cases.len()).collect()).collect()
     }
+}
+
+/// Some of the sets, others for each place, and as many: neighbours in the list of mistakes are alike.
+pub(super) fn sample(sets: &[Vec<Mistake>], place: usize) -> Vec<Vec<Mistake>> {
+    let apart = sets.len() / SAMPLED;
+    let numbers = (0..SAMPLED).map(|number| (place + number * apart) % sets.len());
+    numbers.map(|number| sets[number].clone()).collect()
 }
 
 /// What the core was asked in a case, of these mistakes.

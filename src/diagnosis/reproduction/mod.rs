@@ -62,7 +62,7 @@ pub(crate) trait Planted {
         true
     }
 
-    /// What it took to answer a question; nothing if it was not asked.
+    /// What it took to answer a question, in the work of a ray (`contract::Work`); 0 if it was not asked.
     fn price(&self, _question: &Question<'_>) -> u64 {
         0
     }

@@ -297,9 +297,8 @@ impl<'a> Proof<'a> {
         let answers = self.compare(&[named], &asked).remove(0);
         let gives_numbers = answers.contains(&Likeness::Same);
         // Nothing else need take a light that what is named takes.
-        let is_given = |(seen, of): &(&&Observation<'_>, Likeness)| match of {
-            Likeness::Unsized => seen.is_dark(),
-            of => *of == Likeness::Same,
+        let is_given = |(seen, of): &(&&Observation<'_>, Likeness)| {
+            *of == Likeness::Same || *of == Likeness::Unsized && seen.is_dark()
         };
         let given = asked.iter().zip(answers).filter(is_given);
         let given: Vec<_> = given.map(|(seen, _)| seen.case.to_owned()).collect();

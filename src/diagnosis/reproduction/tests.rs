@@ -356,6 +356,20 @@ fn a_dear_case_is_asked_of_what_a_cheaper_one_leaves() {
     }
 }
 
+#[test]
+fn every_case_is_priced_by_as_many_mistakes() {
+    for count in CASES + 1..40 {
+        let names: Vec<&str> = (0..count).map(|number| &*number.to_string().leak()).collect();
+        let sets: Vec<_> =
+            names.iter().map(|name| vec![mistake(name, &bsdf::WITHOUT_PI, "light/b")]).collect();
+        for place in 0..20 {
+            let some = asking::sample(&sets, place);
+            let different: BTreeSet<_> = some.iter().map(|set| set[0].name).collect();
+            assert_eq!(different.len(), asking::SAMPLED, "{place} of {count}");
+        }
+    }
+}
+
 /// Of one mistake in two places, one fails what the other passes, without a number.
 struct InTwoPlaces;
 

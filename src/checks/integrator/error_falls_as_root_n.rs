@@ -9,8 +9,8 @@ use crate::contract::{Acceleration, BuiltScene, Capabilities, DirectSampling};
 use crate::image::luminance;
 use crate::math::rng::Seed;
 use crate::scene::Camera;
-use crate::stats::{Allowance, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
-use crate::text::number::figure;
+use crate::stats::{Allowance, Band, ErrorLevel, Sampling, SlopeReport, Verdict, judge_slope};
+use crate::text::number::{figure, to_step};
 use crate::text::{Between, Bounces, Count, Lit, Percent, Size};
 
 check! {
@@ -62,8 +62,10 @@ impl Check for ErrorFallsAsRootN {
         let detects = self.detects.0 * context.budget.coarseness().max(1.0);
         let (levels, variances): (Vec<_>, Vec<_>) = levels.into_iter().unzip();
         let mean = luminance(self.radiance.0.map(|value| value as f32));
-        Ok(finding(&judge_slope(&levels, Sampling::Stratified, detects), &variances)
-            .showing([convergence::series(&levels, mean, 0.0)]))
+        let forgiven = Band::RADIANCE.relative() * mean;
+        let report = judge_slope(&levels, Sampling::Stratified, detects, forgiven);
+        let errors = convergence::series(&levels, mean, 0.0);
+        Ok(finding(&report, &variances).showing([errors]))
     }
 }
 
@@ -116,21 +118,13 @@ fn variance_between(runs: &[Vec<f64>]) -> f64 {
 /// What the slope says, and the variance between pictures of ever more samples.
 fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let slope = Measure::of("slope of log error on log samples", report);
+    let shown = to_step(report.slope, SLOPES_DIFFER);
     let statement = match report.verdict {
         Verdict::Fail => format!(
-            "error falls as n^{}, not n^-0.5; a bias of {} would explain its plateau",
-            figure(report.slope),
+            "error falls as n^{shown}, not n^-0.5; a bias of {} would explain its plateau",
             figure(report.plateau_bias)
         ),
-        _ => match report.tail {
-            None => format!("error falls as n^{}", figure(report.slope)),
-            Some(carriers) => format!(
-                "error seems to fall as n^{}, but a few samples carry the light: the error of a picture rests on {} \
-                 pixels",
-                figure(report.slope),
-                figure(carriers)
-            ),
-        },
+        _ => format!("error falls as n^{shown}"),
     };
     let resolution =
         format!("would have caught a slope that is off by {}", figure(report.resolution));
@@ -138,9 +132,12 @@ fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let noise_stays = matches!(variances, [first, .., last] if *last > 0.5 * first);
     let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE && noise_stays;
     let cause = repeats.then_some(&cause::integrator::SAMPLES_REPEAT);
-    let evidence = format!("more samples change nothing: the slope is {}", figure(report.slope));
+    let evidence = format!("more samples change nothing: the slope is {shown}");
     Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
 }
+
+/// By so much the slopes of correct cores differ: no digit is shown far below it.
+const SLOPES_DIFFER: f64 = 0.02;
 
 /// A slope that is none: samples that repeat, or a bias that nothing averages out.
 const NO_SLOPE: f64 = 0.05;
@@ -204,6 +201,24 @@ mod tests {
             failure(&finding);
             assert!(finding.clues.is_empty(), "{finding:?}");
         }
+    }
+
+    #[test]
+    fn darkness_is_a_plateau_and_its_slope_a_number() {
+        let found = |develop| found(FakeFilm { develop, ..FakeFilm::default() });
+        let [dark, dim] = [found(|_, _| [0.0; 3]), found(|_, _| [0.7; 3])];
+        let told = "error falls as n^0.000, not n^-0.5; a bias of ";
+        assert_eq!(failure(&dark), format!("{told}1 would explain its plateau"));
+        assert_eq!(failure(&dim), format!("{told}0.3 would explain its plateau"));
+        assert!(dim.clues.is_empty(), "{dim:?}");
+    }
+
+    #[test]
+    fn who_is_right_without_noise_is_not_failed() {
+        let exact = FakeFilm { develop: |_, _| [1.0; 3], ..FakeFilm::default() };
+        let finding = found(exact);
+        assert_eq!(finding.verdict, Verdict::Inconclusive, "{finding:?}");
+        assert!(finding.statement.contains("there is no error to fall"), "{}", finding.statement);
     }
 
     #[test]

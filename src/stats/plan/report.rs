@@ -35,6 +35,10 @@ spoken! {
     pub enum Doubt {
         /// The variance may be infinite, or rests on events that have hardly been seen.
         HeavyTail = "a few samples carry the light, too few to say that it is too dark",
+        /// The error of a picture rests on a few of its pixels.
+        FewCarryTheError = "a few samples carry the light, too few to say how the error falls",
+        /// Pictures of any number of samples are right.
+        NoError = "pictures are right however few their samples: without noise there is no error to fall",
         /// So spiked a function that its quadrature would take a large error for rounding.
         Spiked = "not known well enough: its spikes are too narrow for the quadrature",
     }

@@ -5,10 +5,11 @@
 //! fall at all says that the samples are always the same. A core that stratifies may fall faster.
 //!
 //! Where a few pixels carry most of the squared error (one sample in thousands carries the light), the spread of the
-//! runs does not know the error of their mean: a slope that is off is then no proof, and the answer is inconclusive.
+//! runs does not know the error of their mean: a slope that is off is then no proof, and the answer is inconclusive. So it
+//! is where pictures of any number of samples are right: without noise there is no error to fall.
 
 use crate::stats::Moments;
-use crate::stats::plan::{Hypothesis, Judgement, Report, TestKind, Verdict};
+use crate::stats::plan::{Doubt, Hypothesis, Judgement, Report, TestKind, Verdict};
 use serde::Deserialize;
 
 /// The slope of independent samples.
@@ -94,8 +95,7 @@ pub(crate) struct SlopeReport {
     /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
     /// nothing.
     pub(crate) plateau_bias: f64,
-    /// The fewest carriers of a level, if they are too few to say that the slope is off.
-    pub(crate) tail: Option<f64>,
+    pub(crate) doubt: Option<Doubt>,
 }
 
 impl Report for SlopeReport {
@@ -104,14 +104,21 @@ impl Report for SlopeReport {
         Judgement {
             interval: Some([end(-1.0), end(1.0)]),
             smallest_detectable_error: Some(self.resolution / INDEPENDENT.abs()),
+            doubt: self.doubt,
             hypothesis: Some(Hypothesis::new(TestKind::Slope, false)),
             ..Judgement::new(self.verdict, self.slope, INDEPENDENT)
         }
     }
 }
 
-/// Judges the slope of the errors; it must be seen if it is off by `detects`.
-pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f64) -> SlopeReport {
+/// Judges the slope of the errors; it must be seen if it is off by `detects`. `forgiven` is the error that a right core may
+/// have however many samples it takes, in the unit of the errors.
+pub(crate) fn judge_slope(
+    levels: &[ErrorLevel],
+    sampling: Sampling,
+    detects: f64,
+    forgiven: f64,
+) -> SlopeReport {
     let points: Vec<_> = levels.iter().map(point).collect();
     let (slope, standard_error) = fit(&points);
     let off = match sampling {
@@ -120,14 +127,18 @@ pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f6
     };
     let resolution = BAND + (SIGMAS + SIGMAS_TO_SEE) * standard_error;
     let rejects = off > BAND + SIGMAS * standard_error || slope.is_nan();
-    let fewest = levels.iter().map(|level| level.carriers).fold(f64::INFINITY, f64::min);
-    let tail = (rejects && fewest < FEWEST_CARRIERS).then_some(fewest);
+    let few_carry = || levels.iter().any(|level| level.carriers < FEWEST_CARRIERS);
+    let doubt = match rejects {
+        _ if are_right(levels, forgiven) => Some(Doubt::NoError),
+        true if few_carry() => Some(Doubt::FewCarryTheError),
+        _ => None,
+    };
     SlopeReport {
-        verdict: match tail {
+        verdict: match doubt {
             Some(_) => Verdict::Inconclusive,
             None => Verdict::of_test(rejects, resolution <= detects),
         },
-        tail,
+        doubt,
         slope,
         standard_error,
         resolution,
@@ -135,12 +146,18 @@ pub(crate) fn judge_slope(levels: &[ErrorLevel], sampling: Sampling, detects: f6
     }
 }
 
+/// Whether no level has a larger root mean square error than `forgiven`; one that is not a number has.
+fn are_right(levels: &[ErrorLevel], forgiven: f64) -> bool {
+    levels.iter().all(|level| level.error().mean().sqrt() <= forgiven)
+}
+
 /// ln samples, ln of the root mean square error over pixels and runs, and how much that weighs: one over its variance.
+/// Pictures that are all off by the same are no better known than to rounding, and weigh no more.
 fn point(level: &ErrorLevel) -> [f64; 3] {
     let squared = level.error();
     // d ln √m = dm / 2m
     let log_error = 0.5 * squared.standard_error() / squared.mean();
-    let weight = log_error.powi(2).max(f64::MIN_POSITIVE).recip();
+    let weight = log_error.max(f64::EPSILON).powi(2).recip();
     [(level.samples as f64).ln(), squared.mean().sqrt().ln(), weight]
 }
 
@@ -185,7 +202,7 @@ mod tests {
 
     #[test]
     fn independent_samples_fall_with_slope_one_half() {
-        let report = judge_slope(&levels(|mean, _| mean), Sampling::Independent, 0.1);
+        let report = judge_slope(&levels(|mean, _| mean), Sampling::Independent, 0.1, 0.0);
         assert_eq!(report.verdict, Verdict::Pass, "{report:?}");
         assert!((report.slope + 0.5).abs() < 4.0 * report.standard_error + 0.005);
         assert!(report.plateau_bias < 0.02);
@@ -193,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_bias_makes_a_plateau_and_is_measured() {
-        let report = judge_slope(&levels(|mean, _| mean + 0.1), Sampling::Independent, 0.1);
+        let report = judge_slope(&levels(|mean, _| mean + 0.1), Sampling::Independent, 0.1, 0.0);
         assert_eq!(report.verdict, Verdict::Fail);
         assert!((report.plateau_bias - 0.1).abs() < 0.01, "{}", report.plateau_bias);
     }
@@ -201,17 +218,44 @@ mod tests {
     #[test]
     fn noise_that_does_not_fall_fails() {
         let stuck = |mean: f64, n: f64| 1.0 + (mean - 1.0) * n.sqrt();
-        let report = judge_slope(&levels(stuck), Sampling::Independent, 0.1);
+        let report = judge_slope(&levels(stuck), Sampling::Independent, 0.1, 0.0);
         assert_eq!(report.verdict, Verdict::Fail);
         assert!(report.slope.abs() < 0.05);
+    }
+
+    #[test]
+    fn pictures_that_are_all_off_by_the_same_have_no_slope() {
+        let dark = judge_slope(&levels(|_, _| 0.0), Sampling::Stratified, 0.1, 1e-3);
+        assert_eq!(dark.verdict, Verdict::Fail);
+        assert!(dark.slope.abs() < 1e-9, "{dark:?}");
+        assert!((dark.plateau_bias - 1.0).abs() < 1e-9, "{dark:?}");
+    }
+
+    #[test]
+    fn where_all_pictures_are_right_no_error_has_to_fall() {
+        let judged = |mean: f64| judge_slope(&levels(|_, _| mean), Sampling::Stratified, 0.1, 1e-3);
+        for mean in [1.0, 1.0 + 1e-7, 0.9991] {
+            let report = judged(mean);
+            let found = (report.verdict, report.doubt);
+            assert_eq!(found, (Verdict::Inconclusive, Some(Doubt::NoError)), "{report:?}");
+        }
+        assert_eq!(judged(1.0011).verdict, Verdict::Fail);
+        // One number of samples that is wrong is enough.
+        let late = judge_slope(
+            &levels(|_, n| if n < 200.0 { 1.0 } else { 1.1 }),
+            Sampling::Stratified,
+            0.1,
+            1e-3,
+        );
+        assert_eq!(late.verdict, Verdict::Fail);
     }
 
     #[test]
     fn a_steeper_slope_is_right_only_where_samples_are_stratified() {
         let steeper = |mean: f64, n: f64| 1.0 + (mean - 1.0) * n.powf(-0.25);
         let levels = levels(steeper);
-        assert_eq!(judge_slope(&levels, Sampling::Independent, 0.1).verdict, Verdict::Fail);
-        assert_eq!(judge_slope(&levels, Sampling::Stratified, 0.1).verdict, Verdict::Pass);
+        assert_eq!(judge_slope(&levels, Sampling::Independent, 0.1, 0.0).verdict, Verdict::Fail);
+        assert_eq!(judge_slope(&levels, Sampling::Stratified, 0.1, 0.0).verdict, Verdict::Pass);
     }
 
     /// Pictures of 64 pixels and fewer, whose light comes by one sample in `rarity`.
@@ -232,22 +276,22 @@ mod tests {
     fn a_tail_that_carries_the_light_proves_nothing() {
         let judged = |rarity| {
             (0..100).map(move |seed| {
-                judge_slope(&carried_by_one_in(rarity, seed), Sampling::Stratified, 0.15)
+                judge_slope(&carried_by_one_in(rarity, seed), Sampling::Stratified, 0.15, 0.0)
             })
         };
         for rarity in [1000.0, 4000.0, 30_000.0] {
             let failed = judged(rarity).filter(|report| report.verdict == Verdict::Fail).count();
             assert_eq!(failed, 0, "one sample in {rarity}");
         }
-        assert!(judged(4000.0).any(|report| report.tail.is_some()));
+        assert!(judged(4000.0).any(|report| report.doubt == Some(Doubt::FewCarryTheError)));
     }
 
     #[test]
     fn one_level_or_a_nan_is_no_pass() {
         let mut few = levels(|mean, _| mean);
         few.truncate(1);
-        assert_ne!(judge_slope(&few, Sampling::Independent, 0.1).verdict, Verdict::Pass);
+        assert_ne!(judge_slope(&few, Sampling::Independent, 0.1, 0.0).verdict, Verdict::Pass);
         let nan = levels(|_, _| f64::NAN);
-        assert_eq!(judge_slope(&nan, Sampling::Independent, 0.1).verdict, Verdict::Fail);
+        assert_eq!(judge_slope(&nan, Sampling::Independent, 0.1, 0.0).verdict, Verdict::Fail);
     }
 }

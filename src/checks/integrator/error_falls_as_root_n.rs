@@ -120,6 +120,10 @@ fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let slope = Measure::of("slope of log error on log samples", report);
     let shown = to_step(report.slope, SLOPES_DIFFER);
     let statement = match report.verdict {
+        Verdict::Fail if report.slope.is_nan() => format!(
+            "error does not fall: every picture is off by {}, however many its samples",
+            figure(report.plateau_bias)
+        ),
         Verdict::Fail => format!(
             "error falls as n^{shown}, not n^-0.5; a bias of {} would explain its plateau",
             figure(report.plateau_bias)
@@ -203,14 +207,16 @@ mod tests {
         }
     }
 
+    /// Whose slope is no number, as others of dark cores are none: 0 would be that of samples that repeat.
     #[test]
-    fn darkness_is_a_plateau_and_its_slope_a_number() {
+    fn darkness_does_not_fall_and_has_no_slope() {
         let found = |develop| found(FakeFilm { develop, ..FakeFilm::default() });
-        let [dark, dim] = [found(|_, _| [0.0; 3]), found(|_, _| [0.7; 3])];
-        let told = "error falls as n^0.000, not n^-0.5; a bias of ";
-        assert_eq!(failure(&dark), format!("{told}1 would explain its plateau"));
-        assert_eq!(failure(&dim), format!("{told}0.3 would explain its plateau"));
-        assert!(dim.clues.is_empty(), "{dim:?}");
+        for (finding, bias) in [(found(|_, _| [0.0; 3]), "1"), (found(|_, _| [0.7; 3]), "0.3")] {
+            let told = "error does not fall: every picture is off by ";
+            assert_eq!(failure(&finding), format!("{told}{bias}, however many its samples"));
+            assert!(finding.measures[0].is_degenerate(), "{finding:?}");
+            assert!(finding.clues.is_empty(), "{finding:?}");
+        }
     }
 
     #[test]

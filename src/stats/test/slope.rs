@@ -86,7 +86,7 @@ pub(crate) enum Sampling {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SlopeReport {
     pub(crate) verdict: Verdict,
-    /// Of log error on log samples.
+    /// Of log error on log samples; NaN of errors without noise, which have no rate to fall at.
     pub(crate) slope: f64,
     /// Of `slope`.
     pub(crate) standard_error: f64,
@@ -120,7 +120,8 @@ pub(crate) fn judge_slope(
     forgiven: f64,
 ) -> SlopeReport {
     let points: Vec<_> = levels.iter().map(point).collect();
-    let (slope, standard_error) = fit(&points);
+    let have_noise = points.iter().any(|[.., weight]| *weight < weight_of(0.0));
+    let (slope, standard_error) = if have_noise { fit(&points) } else { (f64::NAN, f64::NAN) };
     let off = match sampling {
         Sampling::Independent => (slope - INDEPENDENT).abs(),
         Sampling::Stratified => slope - INDEPENDENT,
@@ -152,13 +153,17 @@ fn are_right(levels: &[ErrorLevel], forgiven: f64) -> bool {
 }
 
 /// ln samples, ln of the root mean square error over pixels and runs, and how much that weighs: one over its variance.
-/// Pictures that are all off by the same are no better known than to rounding, and weigh no more.
 fn point(level: &ErrorLevel) -> [f64; 3] {
     let squared = level.error();
     // d ln √m = dm / 2m
     let log_error = 0.5 * squared.standard_error() / squared.mean();
-    let weight = log_error.max(f64::EPSILON).powi(2).recip();
+    let weight = weight_of(log_error);
     [(level.samples as f64).ln(), squared.mean().sqrt().ln(), weight]
+}
+
+/// Of a logarithm with this standard error. Pictures that are all off by the same are no better known than to rounding.
+fn weight_of(standard_error: f64) -> f64 {
+    standard_error.max(f64::EPSILON).powi(2).recip()
 }
 
 /// Weighted least squares of ln error on ln samples: slope and standard error. NaN of fewer than
@@ -227,7 +232,7 @@ mod tests {
     fn pictures_that_are_all_off_by_the_same_have_no_slope() {
         let dark = judge_slope(&levels(|_, _| 0.0), Sampling::Stratified, 0.1, 1e-3);
         assert_eq!(dark.verdict, Verdict::Fail);
-        assert!(dark.slope.abs() < 1e-9, "{dark:?}");
+        assert!(dark.slope.is_nan(), "{dark:?}");
         assert!((dark.plateau_bias - 1.0).abs() < 1e-9, "{dark:?}");
     }
 

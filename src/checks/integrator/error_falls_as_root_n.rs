@@ -118,10 +118,10 @@ fn variance_between(runs: &[Vec<f64>]) -> f64 {
 /// What the slope says, and the variance between pictures of ever more samples.
 fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let slope = Measure::of("slope of log error on log samples", report);
-    let shown = to_step(report.slope, SLOPES_DIFFER);
+    let shown = to_step(report.slope, report.resolution);
     let statement = match report.verdict {
         Verdict::Fail if report.slope.is_nan() => format!(
-            "error does not fall: every picture is off by {}, however many its samples",
+            "pictures have no noise to average out, and those of the most samples are off by {}",
             figure(report.plateau_bias)
         ),
         Verdict::Fail => format!(
@@ -139,9 +139,6 @@ fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
     let evidence = format!("more samples change nothing: the slope is {shown}");
     Finding::of(statement, resolution, vec![slope]).because_each(cause, &evidence)
 }
-
-/// By so much the slopes of correct cores differ: no digit is shown far below it.
-const SLOPES_DIFFER: f64 = 0.02;
 
 /// A slope that is none: samples that repeat, or a bias that nothing averages out.
 const NO_SLOPE: f64 = 0.05;
@@ -207,13 +204,14 @@ mod tests {
         }
     }
 
-    /// Whose slope is no number, as others of dark cores are none: 0 would be that of samples that repeat.
+    /// A slope of 0 would be that of samples that repeat.
     #[test]
-    fn darkness_does_not_fall_and_has_no_slope() {
+    fn darkness_has_no_noise_and_no_slope() {
         let found = |develop| found(FakeFilm { develop, ..FakeFilm::default() });
         for (finding, bias) in [(found(|_, _| [0.0; 3]), "1"), (found(|_, _| [0.7; 3]), "0.3")] {
-            let told = "error does not fall: every picture is off by ";
-            assert_eq!(failure(&finding), format!("{told}{bias}, however many its samples"));
+            let told =
+                "pictures have no noise to average out, and those of the most samples are off by ";
+            assert_eq!(failure(&finding), format!("{told}{bias}"));
             assert!(finding.measures[0].is_degenerate(), "{finding:?}");
             assert!(finding.clues.is_empty(), "{finding:?}");
         }

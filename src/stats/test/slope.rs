@@ -95,6 +95,7 @@ pub(crate) struct SlopeReport {
     /// The bias that would explain what the last level's error exceeds its own noise by; 0 if
     /// nothing.
     pub(crate) plateau_bias: f64,
+    /// Why this decides nothing, where more samples would not help.
     pub(crate) doubt: Option<Doubt>,
 }
 
@@ -178,7 +179,8 @@ fn fit(points: &[[f64; 3]]) -> (f64, f64) {
 
 /// E[(x − μ)²] = bias² + variance.
 fn plateau_bias(level: &ErrorLevel) -> f64 {
-    (level.error().mean() - level.variance).max(0.0).sqrt()
+    // A clamp keeps NaN, which `max` would take for no bias.
+    (level.error().mean() - level.variance).clamp(0.0, f64::INFINITY).sqrt()
 }
 
 #[cfg(test)]
@@ -296,7 +298,8 @@ mod tests {
         let mut few = levels(|mean, _| mean);
         few.truncate(1);
         assert_ne!(judge_slope(&few, Sampling::Independent, 0.1, 0.0).verdict, Verdict::Pass);
-        let nan = levels(|_, _| f64::NAN);
-        assert_eq!(judge_slope(&nan, Sampling::Independent, 0.1, 0.0).verdict, Verdict::Fail);
+        let nan = judge_slope(&levels(|_, _| f64::NAN), Sampling::Independent, 0.1, 0.0);
+        assert_eq!(nan.verdict, Verdict::Fail);
+        assert!(nan.plateau_bias.is_nan(), "{nan:?}");
     }
 }

@@ -130,8 +130,8 @@ fn finding(report: &SlopeReport, variances: &[f64]) -> Finding {
         ),
         _ => format!("error falls as n^{shown}"),
     };
-    let resolution =
-        format!("would have caught a slope that is off by {}", figure(report.resolution));
+    let caught = |off| format!("would have caught a slope that is off by {}", figure(off));
+    let resolution = if report.slope.is_nan() { String::new() } else { caught(report.resolution) };
     // Where it is bias alone that stays, the pictures agree with each other better and better.
     let noise_stays = matches!(variances, [first, .., last] if *last > 0.5 * first);
     let repeats = report.verdict == Verdict::Fail && report.slope.abs() <= NO_SLOPE && noise_stays;
@@ -213,6 +213,7 @@ mod tests {
                 "pictures have no noise to average out, and those of the most samples are off by ";
             assert_eq!(failure(&finding), format!("{told}{bias}"));
             assert!(finding.measures[0].is_degenerate(), "{finding:?}");
+            assert_eq!(finding.resolution, "", "no slope would have been caught");
             assert!(finding.clues.is_empty(), "{finding:?}");
         }
     }

@@ -186,6 +186,17 @@ fn a_class_is_graded_at_once_and_ends_the_same_however_often_it_was_killed() {
     assert!(page.contains("bea, cem"), "those with the same mistake stand together");
 }
 
+#[test]
+fn a_class_goes_where_it_is_told_to() {
+    let room = Room::new();
+    hand_in(&room);
+    let output = room.furnace(&[&CLASS[..], &["--report", "graded"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", printed(&output));
+    let table = room.read("graded/class.csv");
+    assert!(table.lines().any(|line| line.starts_with("ada,3,10,0,3,0,")), "{table}");
+    assert!(!room.path().join("classes").exists());
+}
+
 /// Whether no process has the number that a file holds, soon.
 #[cfg(unix)]
 fn is_gone(file: &Path) -> bool {

@@ -58,8 +58,8 @@ pub(crate) struct GradeArguments {
     /// Number of trials, or of submissions, to run in parallel [default: one per hardware thread].
     #[arg(short, long, value_name = "N", value_parser = super::jobs)]
     jobs: Option<NonZeroUsize>,
-    /// Where runs go [default: reports/runs].
-    #[arg(long, value_name = "DIR", conflicts_with = "submissions")]
+    /// Where runs go [default: reports/runs], and of a class its builds and its page, too [default: classes/SUITE].
+    #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     /// Print JSON instead of the table.
     #[arg(long)]

@@ -33,7 +33,11 @@ pub(super) fn grade(arguments: &GradeArguments, desk: &Desk, folder: &Path) -> A
     if submissions.is_empty() {
         return Err(Failure::nothing(format!("{} holds no submission", folder.display())));
     }
-    let home = desk.project.class(&desk.suite.name);
+    // A build stands elsewhere.
+    let home = match &arguments.report {
+        Some(folder) => std::path::absolute(folder).map_err(Failure::request)?,
+        None => desk.project.class(&desk.suite.name),
+    };
     let conditions = desk.conditions()?;
     let keys: Vec<_> = submissions.iter().map(|one| one.key(&conditions)).collect();
     let graded = all_of(arguments, desk, &home, turns(arguments, &submissions, &keys))?;

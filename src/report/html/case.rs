@@ -1,5 +1,6 @@
 //! A case with what every core made of it: verdict, images, numbers, background, and how to run it again.
 
+use super::cause;
 use super::image::pictures;
 use super::interval;
 use super::parts::{badge, command, scrolls};
@@ -77,7 +78,7 @@ fn neighbours(view: &View<'_>, cases: &[CaseGroup<'_>], number: usize) -> Markup
 
 fn body(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
     html! {
-        @for trial in &case.trials { (judgement(trial)) }
+        @for trial in &case.trials { (judgement(view, trial)) }
         (pictures(view, case))
         @for trial in &case.trials { (plots(trial, case.trials.len() > 1)) }
         @for trial in &case.trials { (numbers(trial, case.trials.len() > 1)) }
@@ -85,7 +86,7 @@ fn body(view: &View<'_>, case: &CaseGroup<'_>) -> Markup {
     }
 }
 
-fn judgement(trial: &TrialRecord) -> Markup {
+fn judgement(view: &View<'_>, trial: &TrialRecord) -> Markup {
     html! {
         article.card id=(anchor(trial)) tabindex="-1" {
             p.kicker {
@@ -94,6 +95,7 @@ fn judgement(trial: &TrialRecord) -> Markup {
                 @if !trial.with.is_empty() { " · with the bench's " (trial.with.in_words()) }
             }
             p.said.statement { (trial.outcome.statement()) }
+            (cause::of_failure(view, trial))
             @if let Some(finding) = trial.outcome.finding() { (resolution(finding)) }
             @if !trial.printed.is_empty() {
                 details { summary { "what the core printed" } pre { (trial.printed) } }

@@ -2,13 +2,14 @@
 //! look, one command, and the failing cases that it explains.
 
 use super::parts::{command, folded_rows, with_code};
-use super::{View, plot};
+use super::{Place, View, plot};
 use crate::case::PARTS;
 use crate::diagnosis::{Degree, Headline};
 use crate::report::digest::capitalised;
 use crate::report::transplants::proofs;
 use crate::report::tree::RunTree;
 use crate::run::TrialRecord;
+use crate::text::number::count;
 use maud::{Markup, html};
 
 /// Failing cases of a cause that are listed before the others are folded away.
@@ -59,6 +60,41 @@ pub(super) fn card(
             @if let Some(plot) = evidence_plot(view.tree, core, headline, number == 1) { (plot) }
             (cases(view, core, headline))
         }
+    }
+}
+
+/// The causes of a failure, where it stands by itself: in a sentence each, where to look, what to mend, and the way to
+/// all that is known of it.
+pub(super) fn of_failure(view: &View<'_>, trial: &TrialRecord) -> Markup {
+    let concerns = |(core, headline): &(&str, &Headline)| {
+        *core == trial.core && headline.accounts_for(&trial.case)
+    };
+    html! {
+        @for (_, headline) in told(view.tree).into_iter().filter(concerns) {
+            p.degree {
+                b { (degree_of(headline, &trial.case)) } ": " (sentence(&headline.mistake)) " "
+                @if view.place != Place::Alone {
+                    (view.way("index.html#start", &reach(headline)))
+                }
+            }
+            (what_to_do(headline))
+        }
+    }
+}
+
+/// How much more is known of it.
+fn reach(headline: &Headline) -> String {
+    match headline.explains.len() {
+        0 | 1 => "What speaks for it.".to_owned(),
+        failures => format!("{} in all.", count(failures, "failure")),
+    }
+}
+
+/// How sure the cause of this case is.
+fn degree_of(headline: &Headline, case: &str) -> String {
+    match headline.explains.iter().any(|known| known == case) {
+        true => certainty(headline).into_iter().next().unwrap_or_default(),
+        false => "May follow from".to_owned(),
     }
 }
 

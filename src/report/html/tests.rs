@@ -198,16 +198,30 @@ fn a_run_without_results_has_a_page_too() {
     assert!(!page.contains("Every trial passes."));
 }
 
-#[test]
-fn what_differs_without_a_cause_is_listed_once() {
+/// Two failures in one place.
+fn off() -> Example {
     let mut example = Example::green();
     example.trials = [1, 2].map(|n| trial("builtin", &format!("camera/case-{n}"))).to_vec();
     for trial in &mut example.trials {
         trial.outcome = Outcome::Judged { finding: Finding::failure("off") };
     }
-    let page = page(example);
+    example
+}
+
+#[test]
+fn what_differs_without_a_cause_is_listed_once() {
+    let page = page(off());
     assert!(page.contains("Failing here"), "{page}");
     assert!(!page.contains("No cause is known for these"), "{page}");
+}
+
+#[test]
+fn a_failure_says_on_its_own_page_what_its_cause_is() {
+    let page = &all_pages(off())["case/camera/case-1.html"];
+    let judgement = page.split("</article>").next().unwrap();
+    assert!(judgement.contains("<b>Differs here</b>"), "{judgement}");
+    let all = "<a href=\"../../index.html#start\">2 failures in all.</a>";
+    assert!(judgement.contains(all), "{judgement}");
 }
 
 #[test]

@@ -65,6 +65,7 @@ const TERMS: Terms = Terms {
         ["along -z", "along +z"],
         ["that start inside", "that start outside"],
         ["that end inside", "that end outside"],
+        ["with a −0 in their direction", "without a −0 in their direction"],
     ],
     right: "",
 };
@@ -99,7 +100,10 @@ impl Tally {
             };
             let backwards = ray.direction.to_array().map(|along| along < 0.0);
             let ends = [holds(ray.t_min), holds(ray.t_max)];
-            (*found, Vec::new(), backwards.into_iter().chain(ends).collect())
+            let is_negative_zero = |along: &f64| *along == 0.0 && along.is_sign_negative();
+            let has_negative_zero = ray.direction.to_array().iter().any(is_negative_zero);
+            let places = backwards.into_iter().chain(ends).chain([has_negative_zero]);
+            (*found, Vec::new(), places.collect())
         };
         place_of_wrong(TERMS, met.map(of))
     }
@@ -180,6 +184,15 @@ mod tests {
         for (mistake, finding) in failed {
             assert_eq!(finding.clues[0].cause, mistake.cause.name);
         }
+    }
+
+    #[test]
+    fn planes_that_are_swapped_by_a_sign_which_minus_zero_has_not_are_told_by_their_rays() {
+        let finding = found(|slabs, ray| {
+            let is_negative_zero = |along: f64| along == 0.0 && along.is_sign_negative();
+            slabs.span().hits(ray) && !ray.direction.to_array().into_iter().any(is_negative_zero)
+        });
+        assert_eq!(finding.laws, ["boxes are missed by rays with a −0 in their direction"]);
     }
 
     #[test]

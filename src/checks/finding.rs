@@ -245,6 +245,12 @@ impl Measure {
         self.failed() && (self.measured == 0.0 || self.measured.is_nan())
     }
 
+    /// Whether it is an answer that is yes or no, such as whether a ray hits.
+    pub(crate) fn is_yes_or_no(&self) -> bool {
+        let is_flag = |number: f64| number == 0.0 || number == 1.0;
+        self.allowed == 0.0 && is_flag(self.expected) && is_flag(self.measured)
+    }
+
     /// Why this could not be decided, where that is known.
     fn why_open(&self) -> Option<String> {
         let noise =

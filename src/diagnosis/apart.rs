@@ -12,6 +12,8 @@ pub(crate) struct View<'a> {
     pub(crate) evidence: Evidence<'a>,
     /// The component.
     pub(crate) own: Components,
+    /// Components of the bench that have to stand beside it, or else it mends nothing.
+    pub(crate) beside: Components,
     /// Failures of the first look that pass with the bench's own in the place of this component.
     pub(crate) mended: Vec<String>,
     /// Cases that ask about this component or are mended by it. Of others that fail in this view the component need not
@@ -72,7 +74,7 @@ pub(crate) fn diagnose_apart(
     let mut told = Ranked::default();
     for (view, of_view) in views.iter().zip(searched.into_values()) {
         let of_view = of_view.differing_in(&view.evidence, |case| view.is_of_own(case));
-        let mut of_view = of_view.of_component(view.own, first);
+        let mut of_view = of_view.of_component([view.own, view.beside], first);
         let unseen: Vec<_> = of_views
             .iter()
             .filter(|case| view.mends(case) && !of_view.followed_by(case))
@@ -83,7 +85,9 @@ pub(crate) fn diagnose_apart(
         if !unseen.is_empty() {
             let unseen = first.with_failures_of(&unseen);
             let made_in = MadeIn::Mended(view.own);
-            told = told.and(proven(&unseen, planted, made_in).of_component(view.own, first));
+            told = told.and(
+                proven(&unseen, planted, made_in).of_component([view.own, view.beside], first),
+            );
         }
     }
     let is_tried = |case: &str| unmended.iter().any(|other| other == case);
@@ -107,6 +111,7 @@ mod tests {
             let view = View {
                 evidence: triangles.evidence(),
                 own: Components::TRIANGLE_TEST,
+                beside: Components::empty(),
                 of_own: vec!["shape/a".to_owned()],
                 mended: vec!["shape/a".to_owned()],
             };
@@ -134,6 +139,7 @@ mod tests {
         let views = views.map(|(made, mended)| View {
             evidence: made.evidence(),
             own: Components::BSDF,
+            beside: Components::empty(),
             of_own: mended.iter().map(|case| (*case).to_owned()).collect(),
             mended: mended.into_iter().map(str::to_owned).collect(),
         });
@@ -152,17 +158,20 @@ mod tests {
             .with("light/b", failing("b"))
             .with("adaptive/c", failing("c"));
         let mended = ["bsdf/a", "light/b", "adaptive/c"].map(str::to_owned).to_vec();
-        let view = View {
-            evidence: made.evidence(),
-            own: Components::BSDF,
-            of_own: mended.clone(),
-            mended,
+        let told = |beside: Components| {
+            let (evidence, mended) = (made.evidence(), mended.clone());
+            let own = Components::BSDF;
+            let view = View { evidence, own, beside, of_own: mended.clone(), mended };
+            diagnose_apart(&made.evidence(), &[view], &[], &Nothing)
         };
-        let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
-        let [only] = &told.headlines[..] else { panic!("{told:?}") };
+        let alone = told(Components::empty());
+        let [only] = &alone.headlines[..] else { panic!("{alone:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 3));
         assert_eq!(only.mistake, "what differs is the core's BSDF");
-        assert_eq!(told.unexplained, only.explains);
+        assert_eq!(alone.unexplained, only.explains);
+        let together = told(Components::DIRECT_LIGHTING);
+        let both = "what differs is the core's BSDF and direct lighting";
+        assert_eq!(together.headlines[0].mistake, both);
     }
 
     #[test]
@@ -173,6 +182,7 @@ mod tests {
         let view = View {
             evidence: shows_nothing.evidence(),
             own: Components::TRAVERSAL,
+            beside: Components::empty(),
             of_own: mended.clone(),
             mended,
         };
@@ -191,6 +201,7 @@ mod tests {
             let view = View {
                 evidence: again.evidence(),
                 own: Components::BOX_TEST,
+                beside: Components::empty(),
                 of_own: vec!["bvh/a".to_owned()],
                 mended: vec!["bvh/a".to_owned()],
             };
@@ -210,7 +221,13 @@ mod tests {
         let made = Made::new().with("shape/alone", passing()).with("bvh/a", failing("a"));
         let made = made.proving("shape/alone", &[Foundation::Spheres]);
         let (own, case) = (Components::SPHERE_TEST, || vec!["bvh/a".to_owned()]);
-        let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
+        let view = View {
+            evidence: made.evidence(),
+            own,
+            beside: Components::empty(),
+            of_own: case(),
+            mended: case(),
+        };
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert!(!only.mistake.contains("what calls it"), "{}", only.mistake);
@@ -224,7 +241,13 @@ mod tests {
             .proving("integrator/furnace", &[Foundation::Bounces])
             .with("integrator/a", failing("a"));
         let (own, case) = (Components::PATH, || vec!["integrator/a".to_owned()]);
-        let view = View { evidence: made.evidence(), own, of_own: case(), mended: case() };
+        let view = View {
+            evidence: made.evidence(),
+            own,
+            beside: Components::empty(),
+            of_own: case(),
+            mended: case(),
+        };
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         assert_eq!(told.headlines[0].mistake, "what differs is the core's path");
     }
@@ -236,6 +259,7 @@ mod tests {
         let view = View {
             evidence: made.evidence(),
             own: Components::TRIANGLE_TEST,
+            beside: Components::empty(),
             of_own: mended.clone(),
             mended,
         };
@@ -253,6 +277,7 @@ mod tests {
         let views = views.map(|(case, own)| View {
             evidence: made.evidence(),
             own,
+            beside: Components::empty(),
             of_own: vec![case.to_owned()],
             mended: vec![case.to_owned()],
         });
@@ -275,6 +300,7 @@ mod tests {
         let view = View {
             evidence: made.evidence(),
             own: Components::BSDF,
+            beside: Components::empty(),
             of_own: mended.clone(),
             mended,
         };

@@ -158,6 +158,15 @@ impl Ranked {
         self.causes.retain(|headline| !headline.explains.is_empty());
     }
 
+    /// What of these failures has no cause is explained by this one.
+    pub(super) fn explain(&mut self, cause: &str, cases: &[String]) {
+        let Some(one) = self.causes.iter_mut().find(|one| one.cause == cause) else { return };
+        for headline in &mut self.differing {
+            one.explains.extend(headline.explains.extract_if(.., |case| cases.contains(case)));
+        }
+        self.differing.retain(|headline| !headline.explains.is_empty());
+    }
+
     /// What this cause explains follows from the others.
     pub(super) fn leave_to_others(&mut self, cause: &str) {
         let left: Vec<_> = self.causes.extract_if(.., |one| one.cause == cause).collect();
@@ -178,7 +187,7 @@ impl Ranked {
 
     /// The same where everything but `own` is the bench's: whatever else failed is of its only cause too, and what has no
     /// cause differs there.
-    pub(super) fn of_component(mut self, own: Components, evidence: &Evidence<'_>) -> Self {
+    pub(super) fn of_component(mut self, own: [Components; 2], evidence: &Evidence<'_>) -> Self {
         match (&mut self.causes[..], &self.endings[..]) {
             ([only], []) => {
                 for headline in &mut self.differing {
@@ -197,11 +206,17 @@ impl Ranked {
         self
     }
 
-    /// A component that answers rightly where it is asked alone may be called wrongly, or be wrong where no case asks it.
-    fn differing_as_one(&mut self, own: Components, evidence: &Evidence<'_>) {
+    /// A component that answers rightly where it is asked alone may be called wrongly, or be wrong where no case asks it. One
+    /// that mends nothing alone is told with those `beside` it.
+    fn differing_as_one(&mut self, [own, beside]: [Components; 2], evidence: &Evidence<'_>) {
         let Some(one) = self.differing.drain(..).reduce(Headline::and) else { return };
         let component = own.in_words();
-        let (mistake, look_at) = if passes_its_own_cases(own, evidence) {
+        let (mistake, look_at) = if !beside.is_empty() {
+            (
+                format!("what differs is the core's {}", (own | beside).in_words()),
+                "what they have in common: the bench's own mend it only together".to_owned(),
+            )
+        } else if passes_its_own_cases(own, evidence) {
             (
                 format!(
                     "the core's {component} passes its own cases, and what rests on it does not"

@@ -46,6 +46,7 @@ pub(crate) struct Made {
     under: Vec<(String, Circumstances)>,
     work: u64,
     lent: Components,
+    lent_to: Vec<(String, Components)>,
     pub(crate) conventions: Conventions,
 }
 
@@ -53,7 +54,7 @@ impl Made {
     pub(crate) fn new() -> Self {
         let (findings, blocked, conventions) = Default::default();
         let (tiers, specular, resting, proving, ended, under) = Default::default();
-        let (work, lent) = (1, Components::empty());
+        let (work, lent, lent_to) = (1, Components::empty(), Vec::new());
         Self {
             findings,
             blocked,
@@ -65,6 +66,7 @@ impl Made {
             under,
             work,
             lent,
+            lent_to,
             conventions,
         }
     }
@@ -126,6 +128,12 @@ impl Made {
         Self { lent, ..self }
     }
 
+    /// The same where one case has these from the bench.
+    pub(crate) fn lent_to(mut self, case: &str, lent: Components) -> Self {
+        self.lent_to.push((case.to_owned(), lent));
+        self
+    }
+
     pub(crate) fn blocked(mut self, case: &str, by: &str) -> Self {
         self.blocked.push((case.to_owned(), by.to_owned()));
         self
@@ -161,7 +169,11 @@ impl Made {
             rests_on: of_case(&self.resting, seen.case).to_vec(),
             proves: of_case(&self.proving, seen.case),
             work: self.work,
-            with: self.lent,
+            with: self
+                .lent_to
+                .iter()
+                .find(|(of, _)| of == seen.case)
+                .map_or(self.lent, |(_, lent)| *lent),
             circumstances: self
                 .under
                 .iter()

@@ -44,6 +44,7 @@ pub(super) fn diagnose_apart(
         .map(|view| View {
             evidence: evidence(core, seen_again(&first, view)),
             own: view.own,
+            beside: transplants.beside(view.own),
             mended: of_view(view),
             of_own: view.of_own.clone(),
         })
@@ -121,6 +122,32 @@ fn unknown(trial: &TrialRecord) -> Standing {
 mod tests {
     use super::*;
     use crate::checks::Finding;
+    use crate::run::record::Transplanted;
+
+    #[test]
+    fn what_mends_only_beside_another_is_told_with_the_one_that_mends_nothing_alone() {
+        let of = |(component, alone, together)| Transplanted {
+            component,
+            alone,
+            together,
+            judged: 0,
+            cases: Vec::new(),
+        };
+        let beside = |components: &[(Components, usize, usize)]| {
+            let components = components.iter().copied().map(of).collect();
+            let (failures, mended, untried, unmended) = (4, 4, 0, Vec::new());
+            let all = Transplants { failures, components, mended, untried, unmended };
+            all.beside(Components::DIRECT_LIGHTING)
+        };
+        let direct = (Components::DIRECT_LIGHTING, 0, 3);
+        let (light, bsdf) = ((Components::LIGHT_SAMPLING, 1, 1), (Components::BSDF, 0, 0));
+        assert_eq!(beside(&[direct, light, bsdf]), Components::BSDF);
+        assert_eq!(beside(&[direct, light]), Components::empty());
+        let mends_alone = (Components::DIRECT_LIGHTING, 2, 3);
+        assert_eq!(beside(&[mends_alone, bsdf]), Components::empty());
+        let path = (Components::PATH, 0, 2);
+        assert_eq!(beside(&[path, direct, bsdf]), Components::empty(), "it may be the path's");
+    }
 
     #[test]
     fn nothing_follows_from_what_was_taken_from_the_bench() {

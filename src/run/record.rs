@@ -229,6 +229,19 @@ impl Transplants {
         let needs = |one: &&Transplanted| one.cases.iter().any(|known| known == case);
         self.components.iter().find(needs).map(|one| one.component)
     }
+
+    /// What has to stand beside the only component that mends nothing alone: what no failure needs for itself.
+    pub(crate) fn beside(&self, own: Components) -> Components {
+        let mut not_alone = self.components.iter().filter(|one| one.alone == 0 && one.together > 0);
+        let is_only = not_alone.next().is_some_and(|one| one.component == own);
+        let is_needed = |one: &&Transplanted| one.alone + one.together == 0;
+        match (is_only, not_alone.next()) {
+            (true, None) => {
+                self.components.iter().filter(is_needed).map(|one| one.component).collect()
+            }
+            _ => Components::empty(),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

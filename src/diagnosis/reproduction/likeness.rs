@@ -191,10 +191,12 @@ fn share(is_light: bool, is_noisy: bool) -> f64 {
 }
 
 /// The chance that a mistake which is not made comes to the numbers of these cases all the same. Each number that is off by
-/// another factor tells something that the others do not: as much as its error is known to.
+/// another factor tells something that the others do not: as much as its error is known to. Of answers that are yes or no
+/// all errors are one, and which of them are wrong tells: each after the first halves the chance.
 pub(super) fn by_chance(cases: &[&Observation<'_>]) -> f64 {
     let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
     let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());
+    let answers = wrong.clone().filter(|measure| measure.is_yes_or_no()).count();
     let scale = |measure: &Measure| if measure.expected == 0.0 { 1.0 } else { measure.expected };
     let class =
         |measure: &Measure| ((measure.measured / scale(measure)).abs().ln() / ALIKE).round() as i64;
@@ -203,7 +205,7 @@ pub(super) fn by_chance(cases: &[&Observation<'_>]) -> f64 {
         let of_class = chances.entry(class(measure)).or_insert(1.0);
         *of_class = of_class.min(chance_of(measure));
     }
-    chances.values().product()
+    chances.values().product::<f64>() * 0.5_f64.powi(answers.saturating_sub(1) as i32)
 }
 
 /// The part of what an error might be that counts as the same.
@@ -218,7 +220,7 @@ fn chance_of(measure: &Measure) -> f64 {
 mod tests {
     use super::*;
     use crate::cause::{contract, shape};
-    use crate::diagnosis::testing::{failing, mean, means, passing};
+    use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::image::Channel;
     use crate::stats::Verdict;
 
@@ -241,6 +243,19 @@ mod tests {
         assert_eq!(likeness(Some(&half()), &lost), Likeness::Same);
         let nameless = Finding { clues: Vec::new(), ..moved_on };
         assert_eq!(likeness(Some(&nameless), &swapped), Likeness::Same);
+    }
+
+    #[test]
+    fn which_of_many_answers_are_wrong_tells_more_than_that_one_is() {
+        let hits = |ray: usize| Measure::exact("hits", 1.0, 0.0, 0.0).of_row(format!("ray {ray}"));
+        let chance = |rays: usize| {
+            let made = Made::new().with("bvh/boxes", means((0..rays).map(hits).collect()));
+            let evidence = made.evidence();
+            by_chance(&evidence.failures().collect::<Vec<_>>())
+        };
+        assert_eq!([1, 2, 7].map(chance), [1, 2, 64].map(|part| ALIKE / f64::from(part)));
+        let lost = Measure::exact("hits", 0.0, 1.0, 0.0);
+        assert!(lost.is_yes_or_no() && !Measure::exact("t", 1.0, 0.5, 0.0).is_yes_or_no());
     }
 
     #[test]

@@ -17,6 +17,8 @@ const PAIRED: usize = 8;
 /// Sets of several mistakes that are tried, and the cases that they have to reproduce.
 const FORETOLD: usize = 12;
 const PROVING: usize = 8;
+/// Failures without a cause that are put to each named mistake at the end, the quickest.
+const ELSEWHERE: usize = 8;
 /// Fewer sets of mistakes may come to the same numbers by chance, where one of them is named.
 const BY_CHANCE: f64 = 0.1;
 
@@ -315,6 +317,31 @@ impl<'a> Proof<'a> {
         };
         let given = told.symptoms().filter(|_| !named.is_empty()).filter(is_given);
         given.flat_map(|symptom| &symptom.explains).cloned().collect()
+    }
+
+    /// Failures without a cause that have the numbers of a named mistake where its component is the core's own, though they
+    /// asked the bench for it or were looked at for another: the core has the mistake in that place, too.
+    pub(super) fn made_again(&self, told: &Ranked) -> Vec<(String, Vec<String>)> {
+        let left: Vec<_> = told.differing().cloned().collect();
+        let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
+        let named: Vec<_> =
+            named.filter_map(|told| Some((&told.cause, self.likeliest(told)?))).collect();
+        let of_cause = |(cause, mistake): &(&String, Mistake)| {
+            let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
+            let own = |seen: &Observation<'a>| Observation {
+                with: seen.with - mistake.components,
+                ..seen.clone()
+            };
+            let own: Vec<_> = quickest(failures, ELSEWHERE).into_iter().map(own).collect();
+            let asked: Vec<_> = own.iter().collect();
+            let answers = self.compare(&[vec![*mistake]], &asked).remove(0);
+            let given = asked.iter().zip(answers).filter(|(_, of)| *of == Likeness::Same);
+            let given: Vec<_> = given.map(|(seen, _)| *seen).collect();
+            let is_clear = by_chance(&given) * (named.len() as f64) < BY_CHANCE;
+            let cases: Vec<_> = given.iter().map(|seen| seen.case.to_owned()).collect();
+            (!cases.is_empty() && is_clear).then(|| ((*cause).clone(), cases))
+        };
+        named.iter().filter_map(of_cause).collect()
     }
 
     /// Each suspicion of a `set` in the cases that the others alone do not reproduce.

@@ -609,6 +609,38 @@ fn what_nothing_takes_beside_the_others_is_not_told_though_a_part_of_the_core_ha
     assert_eq!(told(0.7), all, "it changes nothing there, and may be made elsewhere");
 }
 
+/// A bench in which a mistake goes with its component.
+struct InOnePlace;
+
+impl Planted for InOnePlace {
+    fn mistakes(&self) -> &[Mistake] {
+        &[PI]
+    }
+
+    fn ask(&self, questions: &[Question<'_>]) -> Vec<Option<Finding>> {
+        let of_case = |case: &str| if case == "bsdf/a" { 0.5 } else { 1.7 };
+        let ratio = |question: &Question<'_>| match question.with.intersects(PI.components) {
+            true => 1.0,
+            false => of_case(question.case),
+        };
+        questions.iter().map(|question| Some(light(ratio(question)))).collect()
+    }
+}
+
+#[test]
+fn a_named_mistake_is_told_of_another_place_that_has_it_though_the_component_is_lent() {
+    let explained = |ratio: f64| {
+        let named = light(0.5).because(&bsdf::WITHOUT_PI, "x");
+        let made = Made::new().with("bsdf/a", named).with("light/b", light(ratio));
+        let made = made.lent_to("light/b", Components::BSDF);
+        let headlines = without_needless(&made.evidence(), &InOnePlace);
+        let of_cause = headlines.into_iter().find(|told| told.cause == bsdf::WITHOUT_PI.name);
+        of_cause.expect("it is named").explains
+    };
+    assert_eq!(explained(1.7), ["bsdf/a", "light/b"]);
+    assert_eq!(explained(0.7), ["bsdf/a"]);
+}
+
 #[test]
 fn what_cannot_be_made_beside_the_others_that_give_its_numbers_is_not_told() {
     let made = Made::new()

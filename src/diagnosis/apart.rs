@@ -103,18 +103,19 @@ mod tests {
     use crate::diagnosis::testing::{Made, Nothing, failing, passing};
     use crate::diagnosis::{Degree, Ending, diagnose};
 
+    /// A view of one component that mends these cases, which ask about it.
+    fn view<'a>(made: &'a Made, own: Components, cases: &[&str]) -> View<'a> {
+        let mended: Vec<_> = cases.iter().map(|case| (*case).to_owned()).collect();
+        let beside = Components::empty();
+        View { evidence: made.evidence(), own, beside, of_own: mended.clone(), mended }
+    }
+
     #[test]
     fn what_was_not_tried_may_be_only_what_it_is_made_of() {
         let made = Made::new().with("shape/a", failing("a")).with("bvh/b", failing("b"));
         let triangles = Made::new().with("shape/a", failing("a"));
         let told = |unmended: &[String]| {
-            let view = View {
-                evidence: triangles.evidence(),
-                own: Components::TRIANGLE_TEST,
-                beside: Components::empty(),
-                of_own: vec!["shape/a".to_owned()],
-                mended: vec!["shape/a".to_owned()],
-            };
+            let view = view(&triangles, Components::TRIANGLE_TEST, &["shape/a"]);
             let told = diagnose_apart(&made.evidence(), &[view], unmended, &Nothing);
             told.headlines.into_iter().last().unwrap().mistake
         };
@@ -136,13 +137,7 @@ mod tests {
         let sphere = failing("a").because(&shape::FAR_ROOT_TAKEN, "x");
         let sphere = Made::new().with("shape/a", sphere).with("bsdf/b", passing());
         let views = [(&surface, vec!["bsdf/b", "light/c"]), (&sphere, vec!["shape/a"])];
-        let views = views.map(|(made, mended)| View {
-            evidence: made.evidence(),
-            own: Components::BSDF,
-            beside: Components::empty(),
-            of_own: mended.iter().map(|case| (*case).to_owned()).collect(),
-            mended: mended.into_iter().map(str::to_owned).collect(),
-        });
+        let views = views.map(|(made, cases)| view(made, Components::BSDF, &cases));
         let told = diagnose_apart(&both.evidence(), &views, &[], &Nothing);
         let [first, second] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((&first.cause[..], first.degree), (shape::FAR_ROOT_TAKEN.name, Degree::Named));
@@ -157,11 +152,9 @@ mod tests {
             .with("bsdf/a", failing("a"))
             .with("light/b", failing("b"))
             .with("adaptive/c", failing("c"));
-        let mended = ["bsdf/a", "light/b", "adaptive/c"].map(str::to_owned).to_vec();
         let told = |beside: Components| {
-            let (evidence, mended) = (made.evidence(), mended.clone());
-            let own = Components::BSDF;
-            let view = View { evidence, own, beside, of_own: mended.clone(), mended };
+            let view = view(&made, Components::BSDF, &["bsdf/a", "light/b", "adaptive/c"]);
+            let view = View { beside, ..view };
             diagnose_apart(&made.evidence(), &[view], &[], &Nothing)
         };
         let alone = told(Components::empty());
@@ -177,15 +170,8 @@ mod tests {
     #[test]
     fn what_one_component_mends_and_its_view_does_not_show_is_of_that_component() {
         let made = Made::new().with("bsdf/a", failing("a")).with("light/b", failing("b"));
-        let mended = ["bsdf/a", "light/b"].map(str::to_owned).to_vec();
         let shows_nothing = Made::new().with("bsdf/a", passing());
-        let view = View {
-            evidence: shows_nothing.evidence(),
-            own: Components::TRAVERSAL,
-            beside: Components::empty(),
-            of_own: mended.clone(),
-            mended,
-        };
+        let view = view(&shows_nothing, Components::TRAVERSAL, &["bsdf/a", "light/b"]);
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!((only.degree, only.explains.len()), (Degree::DiffersHere, 2));
@@ -198,13 +184,7 @@ mod tests {
             let made = Made::new().with("bvh/boxes", boxes).with("bvh/a", failing("a"));
             let made = made.proving("bvh/boxes", &[Foundation::Boxes]);
             let again = Made::new().with("bvh/a", failing("a"));
-            let view = View {
-                evidence: again.evidence(),
-                own: Components::BOX_TEST,
-                beside: Components::empty(),
-                of_own: vec!["bvh/a".to_owned()],
-                mended: vec!["bvh/a".to_owned()],
-            };
+            let view = view(&again, Components::BOX_TEST, &["bvh/a"]);
             let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
             let mistakes = told.headlines.into_iter().map(|headline| headline.mistake);
             mistakes.collect::<Vec<_>>().join(", ")
@@ -220,14 +200,7 @@ mod tests {
     fn a_shape_whose_nearest_hit_is_right_may_be_wrong_itself() {
         let made = Made::new().with("shape/alone", passing()).with("bvh/a", failing("a"));
         let made = made.proving("shape/alone", &[Foundation::Spheres]);
-        let (own, case) = (Components::SPHERE_TEST, || vec!["bvh/a".to_owned()]);
-        let view = View {
-            evidence: made.evidence(),
-            own,
-            beside: Components::empty(),
-            of_own: case(),
-            mended: case(),
-        };
+        let view = view(&made, Components::SPHERE_TEST, &["bvh/a"]);
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert!(!only.mistake.contains("what calls it"), "{}", only.mistake);
@@ -240,14 +213,7 @@ mod tests {
             .with("integrator/furnace", passing())
             .proving("integrator/furnace", &[Foundation::Bounces])
             .with("integrator/a", failing("a"));
-        let (own, case) = (Components::PATH, || vec!["integrator/a".to_owned()]);
-        let view = View {
-            evidence: made.evidence(),
-            own,
-            beside: Components::empty(),
-            of_own: case(),
-            mended: case(),
-        };
+        let view = view(&made, Components::PATH, &["integrator/a"]);
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         assert_eq!(told.headlines[0].mistake, "what differs is the core's path");
     }
@@ -255,14 +221,7 @@ mod tests {
     #[test]
     fn what_a_component_neither_mends_nor_is_asked_by_is_no_difference_of_it() {
         let made = Made::new().with("shape/a", failing("a")).with("light/b", failing("b"));
-        let mended = vec!["shape/a".to_owned()];
-        let view = View {
-            evidence: made.evidence(),
-            own: Components::TRIANGLE_TEST,
-            beside: Components::empty(),
-            of_own: mended.clone(),
-            mended,
-        };
+        let view = view(&made, Components::TRIANGLE_TEST, &["shape/a"]);
         let unmended = ["light/b".to_owned()];
         let told = diagnose_apart(&made.evidence(), &[view], &unmended, &Nothing);
         let mistakes: Vec<_> = told.headlines.iter().map(|h| h.mistake.as_str()).collect();
@@ -274,13 +233,7 @@ mod tests {
         let crash = Ending::Crashed { how: "signal 11", during: "build-scene" };
         let made = Made::new().ended("bvh/a", crash).ended("integrator/b", crash);
         let views = [("bvh/a", Components::TRAVERSAL), ("integrator/b", Components::PATH)];
-        let views = views.map(|(case, own)| View {
-            evidence: made.evidence(),
-            own,
-            beside: Components::empty(),
-            of_own: vec![case.to_owned()],
-            mended: vec![case.to_owned()],
-        });
+        let views = views.map(|(case, own)| view(&made, own, &[case]));
         let told = diagnose_apart(&made.evidence(), &views, &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(only.explains, ["bvh/a", "integrator/b"]);
@@ -296,14 +249,7 @@ mod tests {
     #[test]
     fn other_failures_of_the_one_component_that_is_not_the_benchs_follow_from_its_only_cause() {
         let made = Made::new().with("bsdf/b", without_pi()).with("bsdf/c", failing("c"));
-        let mended = vec!["bsdf/b".to_owned(), "bsdf/c".to_owned()];
-        let view = View {
-            evidence: made.evidence(),
-            own: Components::BSDF,
-            beside: Components::empty(),
-            of_own: mended.clone(),
-            mended,
-        };
+        let view = view(&made, Components::BSDF, &["bsdf/b", "bsdf/c"]);
         let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(

@@ -158,7 +158,7 @@ impl Ranked {
         self.causes.retain(|headline| !headline.explains.is_empty());
     }
 
-    /// What of these failures has no cause is explained by this one.
+    /// This cause explains what of these failures has none.
     pub(super) fn explain(&mut self, cause: &str, cases: &[String]) {
         let Some(one) = self.causes.iter_mut().find(|one| one.cause == cause) else { return };
         for headline in &mut self.differing {
@@ -185,7 +185,7 @@ impl Ranked {
         vague.chain(&self.differing)
     }
 
-    /// The same where everything but `own` is the bench's: whatever else failed is of its only cause too, and what has no
+    /// The same where everything but a component, and those beside it, is the bench's: whatever else failed is of its only cause too, and what has no
     /// cause differs there.
     pub(super) fn of_component(mut self, own: [Components; 2], evidence: &Evidence<'_>) -> Self {
         match (&mut self.causes[..], &self.endings[..]) {

@@ -70,6 +70,11 @@ const TERMS: Terms = Terms {
     right: "",
 };
 
+/// Whether a ray is perpendicular to an axis with a −0: who asks for `direction < 0` takes it for a 0.
+fn has_negative_zero(ray: &Ray) -> bool {
+    ray.direction.to_array().into_iter().any(|along| along == 0.0 && along.is_sign_negative())
+}
+
 impl Tally {
     fn take(&mut self, trial: &Trial, hits: &[BoxHit], margin: f64) {
         for (ray, hit) in trial.rays.iter().zip(hits) {
@@ -100,9 +105,7 @@ impl Tally {
             };
             let backwards = ray.direction.to_array().map(|along| along < 0.0);
             let ends = [holds(ray.t_min), holds(ray.t_max)];
-            let is_negative_zero = |along: &f64| *along == 0.0 && along.is_sign_negative();
-            let has_negative_zero = ray.direction.to_array().iter().any(is_negative_zero);
-            let places = backwards.into_iter().chain(ends).chain([has_negative_zero]);
+            let places = backwards.into_iter().chain(ends).chain([has_negative_zero(ray)]);
             (*found, Vec::new(), places.collect())
         };
         place_of_wrong(TERMS, met.map(of))
@@ -188,10 +191,7 @@ mod tests {
 
     #[test]
     fn planes_that_are_swapped_by_a_sign_which_minus_zero_has_not_are_told_by_their_rays() {
-        let finding = found(|slabs, ray| {
-            let is_negative_zero = |along: f64| along == 0.0 && along.is_sign_negative();
-            slabs.span().hits(ray) && !ray.direction.to_array().into_iter().any(is_negative_zero)
-        });
+        let finding = found(|slabs, ray| slabs.span().hits(ray) && !has_negative_zero(ray));
         assert_eq!(finding.laws, ["boxes are missed by rays with a −0 in their direction"]);
     }
 

@@ -192,7 +192,7 @@ fn share(is_light: bool, is_noisy: bool) -> f64 {
 
 /// The chance that a mistake which is not made comes to the numbers of these cases all the same. Each number that is off by
 /// another factor tells something that the others do not: as much as its error is known to. Of answers that are yes or no
-/// all errors are one, and which of them are wrong tells: each after the first halves the chance.
+/// all errors are one, and which of them are wrong tells: each after the first halves it.
 pub(super) fn by_chance(cases: &[&Observation<'_>]) -> f64 {
     let measures = cases.iter().filter_map(|seen| seen.finding).flat_map(|found| &found.measures);
     let wrong = measures.filter(|measure| measure.failed() && !measure.is_degenerate());

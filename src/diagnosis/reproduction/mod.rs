@@ -110,8 +110,7 @@ pub(super) fn proven(evidence: &Evidence<'_>, planted: &dyn Planted, made_in: Ma
 
 /// The same without causes that nothing takes where all that is named is planted together, and where NaN, infinite and
 /// negative numbers that it gives follow from it, whatever component each mistake is made in, and what is named is told of
-/// every place that it is made in. What is lost in the dark only
-/// looks like its cause.
+/// every place that it is made in. What is lost in the dark only looks like its cause.
 pub(super) fn without_what_follows(
     mut told: Ranked,
     evidence: &Evidence<'_>,
@@ -125,7 +124,7 @@ pub(super) fn without_what_follows(
     let following = proof.symptoms_given_by_all(&told);
     told.follow(&following);
     for (cause, cases) in proof.made_again(&told) {
-        told.explain(&cause, &cases);
+        told.explain(cause, &cases);
     }
     // One darkness may go through several components.
     let lost = proof.lost_among_the_dark(&told);

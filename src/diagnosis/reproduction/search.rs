@@ -321,13 +321,10 @@ impl<'a> Proof<'a> {
 
     /// Failures without a cause that have the numbers of a named mistake where its component is the core's own, though they
     /// asked the bench for it or were looked at for another: the core has the mistake in that place, too.
-    pub(super) fn made_again(&self, told: &Ranked) -> Vec<(String, Vec<String>)> {
-        let left: Vec<_> = told.differing().cloned().collect();
-        let named = told.with_cause().filter(|headline| headline.degree == Degree::Named);
-        let named: Vec<_> =
-            named.filter_map(|told| Some((&told.cause, self.likeliest(told)?))).collect();
-        let of_cause = |(cause, mistake): &(&String, Mistake)| {
-            let failures = left.iter().filter_map(|case| self.evidence.failure_of(case));
+    pub(super) fn made_again(&self, told: &Ranked) -> Vec<(&'static str, Vec<String>)> {
+        let named = self.named(told);
+        let of_mistake = |mistake: &Mistake| {
+            let failures = told.differing().filter_map(|case| self.evidence.failure_of(case));
             let own = |seen: &Observation<'a>| Observation {
                 with: seen.with - mistake.components,
                 ..seen.clone()
@@ -338,10 +335,10 @@ impl<'a> Proof<'a> {
             let given = asked.iter().zip(answers).filter(|(_, of)| *of == Likeness::Same);
             let given: Vec<_> = given.map(|(seen, _)| *seen).collect();
             let is_clear = by_chance(&given) * (named.len() as f64) < BY_CHANCE;
-            let cases: Vec<_> = given.iter().map(|seen| seen.case.to_owned()).collect();
-            (!cases.is_empty() && is_clear).then(|| ((*cause).clone(), cases))
+            let cases = given.iter().map(|seen| seen.case.to_owned()).collect();
+            is_clear.then_some((mistake.cause.name, cases))
         };
-        named.iter().filter_map(of_cause).collect()
+        named.iter().filter_map(of_mistake).collect()
     }
 
     /// Each suspicion of a `set` in the cases that the others alone do not reproduce.

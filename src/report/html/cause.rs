@@ -93,7 +93,10 @@ fn reach(headline: &Headline) -> String {
 /// How sure the cause of this case is.
 fn degree_of(headline: &Headline, case: &str) -> String {
     match headline.explains.iter().any(|known| known == case) {
-        true => certainty(headline).into_iter().next().unwrap_or_default(),
+        true => {
+            let [degree, _] = certainty(headline);
+            degree
+        }
         false => "May follow from".to_owned(),
     }
 }

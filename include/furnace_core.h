@@ -361,7 +361,7 @@ enum { /* furnace_core.traits: what no function pointer can say */
    FURNACE_STRATIFIED_PIXELS = 1u << 13,  /* render honours `stratified` */
    /* Promises. What follows is free: a core that promises nothing is told what was found, and not graded by it. */
    FURNACE_INDEPENDENT_PIXELS = 1u << 14,  /* the noise of one pixel says nothing of another's */
-   FURNACE_INDEPENDENT_SAMPLES = 1u << 15, /* own directions, points and pixel samples, one of the other */
+   FURNACE_INDEPENDENT_SAMPLES = 1u << 15, /* own directions, points and pixel samples are independent */
    FURNACE_PLAIN_ESTIMATORS = 1u << 16,    /* uniform hemisphere, uniform points on lights, roulette as told
                                             * and no other: the variance is the one courses derive */
    FURNACE_DEPTH_LIMIT = 1u << 17,         /* by_depth is honoured */
@@ -389,8 +389,8 @@ enum { /* furnace_conventions; 0 is the default of every field */
  * else with it: what is left out beside a component is told as that component's mistake. A core that weights by
  * MIS goes on to, and both weights take the pdf of the bench's light samples: they are uniform over the area of a
  * mesh, of the cap of a sphere that has one, or of a sphere that is inward or seen from inside; over the cone of any
- * other sphere; over all directions for a sky. A shadow ray that ends by the light's normal ends at the distance instead:
- * the bench's samples have no normal. */
+ * other sphere; over all directions for a sky. They have no normal: a shadow ray that is shortened along the normal of
+ * the light is shortened along itself instead. */
 enum {
    FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,
    FURNACE_TAKES_CAMERA = 1u << 1,             /* generate_rays */

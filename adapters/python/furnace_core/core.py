@@ -42,7 +42,7 @@ TRAITS = {
     "deterministic": "the same settings and seed give the same bits",
     # Promises, graded only where they are made.
     "independent-pixels": "the noise of one pixel says nothing of another's",
-    "independent-samples": "your own directions and points are independent of each other",
+    "independent-samples": "your own directions, points and pixel samples are independent",
     "plain-estimators": "the uniform hemisphere, points uniform on lights (spheres may be sampled by their cone), roulette as "
                         "told and no other: the variance that courses derive",
 }

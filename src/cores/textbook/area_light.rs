@@ -1,6 +1,6 @@
 //! Part 3: shapes that emit, as lights.
 //!
-//! A mesh, and a sphere that is not seen whole, are sampled uniformly over their area; a sphere seen
+//! A mesh, and a sphere that is not seen whole, are sampled uniformly over the area that emits; a sphere seen
 //! from outside uniformly over the cone that it fills.
 
 use super::frame::Frame;

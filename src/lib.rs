@@ -88,5 +88,5 @@ mod harness;
 
 pub use diagnosis::Degree;
 pub use glam;
-pub use grade::{CaseGrade, Entry, Grade, PartGrade, Points, Standing, Told};
+pub use grade::{CaseGrade, Entry, Grade, PartGrade, Points, Standing, Told, Warning};
 pub use harness::{Trials, TrialsError, grade, trials};

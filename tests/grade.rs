@@ -359,6 +359,31 @@ fn a_single_submission_is_built_and_graded() {
     assert!(results["output"].as_str().unwrap().contains("the submission is empty"));
 }
 
+#[test]
+fn what_the_compiler_warns_of_is_told_where_a_submission_is_built() {
+    let room = Room::new();
+    let ends_without_return = "double never(double x) { if (x > 0) return x; }\nstruct Mine";
+    let warned = camera(" / 2", "").replace("struct Mine", ends_without_return);
+    room.write("handed-in/ada/mine.cpp", &warned);
+    room.write("handed-in/bea/mine.cpp", &camera(" / 2", ""));
+    let one = ["grade", "--suite", "small", "--submission", "handed-in/ada"];
+    let told = printed(&room.furnace(&[&one[..], &["--gradescope", "results.json"]].concat()));
+    let warnings = told.split("what the compiler warned of").nth(1);
+    assert!(warnings.is_some_and(|it| it.contains("mine.cpp:3: ")), "{told}");
+    let results: serde_json::Value = serde_json::from_str(&room.read("results.json")).unwrap();
+    assert!(results["output"].as_str().unwrap().contains("mine.cpp:3: "));
+    // Of a class each has its own, and they are read again when it goes on.
+    for _ in 0..2 {
+        let class = room.furnace(&[&CLASS[..], &["--json"]].concat());
+        let grades: serde_json::Value = serde_json::from_slice(&class.stdout).unwrap();
+        assert_eq!(grades[0]["warnings"][0]["line"], 3, "{grades}");
+        assert!(grades[1].get("warnings").is_none());
+        fs::remove_dir_all(room.path().join("classes/small/runs")).unwrap();
+    }
+    room.furnace(&CLASS);
+    assert!(room.read("classes/small/class.html").contains("1 warning of the compiler"));
+}
+
 /// A crate without dependencies, and called as all others; `kind` of its library.
 fn hand_in_crate(room: &Room, name: &str, kind: &str, from: &str, to: &str) {
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/rust/core.rs");

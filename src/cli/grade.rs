@@ -13,7 +13,8 @@ use crate::cores::CoreSpec;
 use crate::disk;
 use crate::grade::class::Shard;
 use crate::grade::{
-    Grade, Standing, Submission, Suite, SuiteError, Workshop, csv, github, gradescope, junit, text,
+    Built, Grade, Standing, Submission, Suite, SuiteError, Workshop, csv, github, gradescope,
+    junit, text,
 };
 use crate::project::Project;
 use crate::report::text::Detail;
@@ -198,7 +199,10 @@ impl Desk {
         let submission = Submission::at(path).map_err(unreadable)?;
         let folder = tempfile::tempdir().map_err(Failure::broken)?;
         let (mut grade, pages) = match submission.core(&self.workshop(arguments), folder.path()) {
-            Ok(core) => self.of_core(arguments, &core.to_string_lossy())?,
+            Ok(Built { core, warnings }) => {
+                let (grade, pages) = self.of_core(arguments, &core.to_string_lossy())?;
+                (Grade { warnings, ..grade }, pages)
+            }
             Err(problem) => self.absent("", &problem),
         };
         // Where it was built is no name of its.

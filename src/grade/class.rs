@@ -1,6 +1,6 @@
 //! A class: the grades of all submissions, as a table and as a page. Without names unless they are asked for.
 
-use super::{Grade, Standing, Told, csv, hundredths};
+use super::{Grade, Standing, Told, csv, hundredths, warning};
 use crate::diagnosis::Degree;
 use crate::report::html::with_code;
 use crate::text::number::count;
@@ -321,7 +321,15 @@ fn submissions(class: &Class) -> Markup {
 fn outcome(grade: &Grade) -> Markup {
     let Some(problem) = &grade.problem else {
         let counting = grade.cases().count() - grade.count(Standing::LeftOut);
-        return html! { (grade.count(Standing::Pass)) " of " (counting) " cases" };
+        return html! {
+            (grade.count(Standing::Pass)) " of " (counting) " cases"
+            @if !grade.warnings.is_empty() {
+                details {
+                    summary { (count(grade.warnings.len(), "warning")) " of the compiler" }
+                    pre { (warning::shown(&grade.warnings).join("\n")) }
+                }
+            }
+        };
     };
     match problem.split_once('\n') {
         Some((first, said)) => html! {

@@ -2,10 +2,11 @@
 
 use super::{Grade, hundredths, markdown};
 
-/// Annotations that GitHub shows of a step.
+/// Errors that GitHub shows of a step, and warnings.
 const MOST: usize = 10;
 
-/// Workflow commands, a line each: the causes, or else the cases that lose points.
+/// Workflow commands, a line each: the causes, or else the cases that lose points; and what the compiler warned of, which
+/// GitHub shows beside the line, where what was handed in is the whole repository.
 pub(crate) fn annotations(grade: &Grade) -> String {
     let problem =
         grade.problem.iter().map(|problem| ("fails to start".to_owned(), problem.clone()));
@@ -21,7 +22,11 @@ pub(crate) fn annotations(grade: &Grade) -> String {
     let line = |(title, message): (String, String)| {
         format!("::error title={}::{}\n", property(&title), data(&message))
     };
-    all.take(MOST).map(line).collect()
+    let warnings = grade.warnings.iter().map(|warning| {
+        let (file, message) = (property(&warning.file), data(&warning.message));
+        format!("::warning file={file},line={}::{message}\n", warning.line)
+    });
+    all.take(MOST).map(line).chain(warnings.take(MOST)).collect()
 }
 
 /// Markdown for `$GITHUB_STEP_SUMMARY`.

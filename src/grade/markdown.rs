@@ -2,7 +2,7 @@
 //!
 //! Words of cores stand in code spans and blocks, where nothing of them is markup.
 
-use super::{CaseGrade, Grade, Told, hundredths};
+use super::{CaseGrade, Grade, Told, hundredths, warning};
 use std::fmt::Write;
 
 /// What is wrong with the core, as far as its author may know.
@@ -13,6 +13,10 @@ pub(super) fn causes(grade: &Grade) -> String {
     }
     for told in &grade.causes {
         text += &cause(told);
+    }
+    if !grade.warnings.is_empty() {
+        let warnings = warning::shown(&grade.warnings).join("\n");
+        _ = write!(text, "### What the compiler warned of\n\n{}\n", block(&warnings));
     }
     text
 }

@@ -15,9 +15,11 @@ mod score;
 mod submission;
 mod suite;
 pub(crate) mod text;
+mod warning;
 
-pub(crate) use submission::{NoCore, Submission, Workshop};
+pub(crate) use submission::{Built, NoCore, Submission, Workshop};
 pub(crate) use suite::{Suite, SuiteError};
+pub use warning::Warning;
 
 use crate::diagnosis::Degree;
 use serde::{Deserialize, Serialize};
@@ -46,6 +48,9 @@ pub struct Grade {
     pub parts: Vec<PartGrade>,
     /// What is wrong, as far as it does not tell of hidden cases.
     pub causes: Vec<Told>,
+    /// What a compiler warned of where a submission was built.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
     /// Numbers that cores are compared by.
     pub leaderboard: Vec<Entry>,
     /// Why the core could not be asked at all.

@@ -68,6 +68,7 @@ impl Grade {
             points: points(suite.parts.iter().map(|part| part.points).sum()),
             parts: suite.parts.iter().map(part).collect(),
             causes: Vec::new(),
+            warnings: Vec::new(),
             leaderboard: Vec::new(),
             problem: Some(problem.to_owned()),
             seconds: None,

@@ -2,9 +2,11 @@
 
 use super::SALT_VARIABLE;
 use super::suite::{Build, Suite};
+use super::warning::{Warning, warnings};
 use crate::cores::command::found;
 use crate::cores::command::process::{self, Ended, Group};
 use crate::project::Project;
+use crate::run::record::{read_json, write_json};
 use crate::text::hexadecimal;
 use crate::text::number::duration;
 use sha2::{Digest, Sha256};
@@ -23,8 +25,8 @@ const LINES: usize = 30;
 const MANIFEST: &str = "Cargo.toml";
 /// Where Cargo works, below the folder of a build.
 const TARGET: &str = "target";
-/// Written when a build has come to its end.
-const DONE: &str = "furnace-built";
+/// Written when a build has come to its end: what the compiler warned of.
+const DONE: &str = "furnace-built.json";
 
 /// Who builds submissions, and with whose files.
 pub(crate) struct Workshop<'a> {
@@ -47,6 +49,21 @@ impl fmt::Display for NoCore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (Self::Authors(why) | Self::Machines(why)) = self;
         f.write_str(why)
+    }
+}
+
+/// What a submission has become.
+#[derive(Debug)]
+pub(crate) struct Built {
+    /// The library.
+    pub(crate) core: PathBuf,
+    /// None where there was nothing to compile. Of a crate none are read: what they are for, Rust refuses.
+    pub(crate) warnings: Vec<Warning>,
+}
+
+impl From<PathBuf> for Built {
+    fn from(core: PathBuf) -> Self {
+        Self { core, warnings: Vec::new() }
     }
 }
 
@@ -92,33 +109,47 @@ impl Submission {
     ///
     /// # Errors
     /// If it is empty, or does not compile.
-    pub(crate) fn core(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<PathBuf, NoCore> {
+    pub(crate) fn core(&self, workshop: &Workshop<'_>, folder: &Path) -> Result<Built, NoCore> {
         if is_library(&self.path) {
-            return Ok(self.path.clone());
+            return Ok(self.path.clone().into());
         }
         if let Some(core) = library_in(&self.path, None) {
-            return Ok(core);
+            return Ok(core.into());
         }
         if WalkDir::new(&self.path).into_iter().flatten().all(|it| !it.file_type().is_file()) {
             return Err(NoCore::Authors("the submission is empty".to_owned()));
         }
         if self.path.join(MANIFEST).is_file() {
-            return self.built_by_cargo(workshop, folder);
+            return self.built_by_cargo(workshop, folder).map(Built::from);
         }
         let Some(build) = &workshop.suite.build else {
             let nothing = "there is no library in it, and the suite does not say how to build one";
             return Err(NoCore::Authors(nothing.to_owned()));
         };
-        if !folder.join(DONE).is_file() {
-            // Half of a build that was cut off is worth nothing.
-            if folder.exists() {
-                std::fs::remove_dir_all(folder).map_err(cannot_build(folder))?;
-            }
-            self.carry_out_all(&build.commands, build.time, workshop, folder)?;
-            std::fs::write(folder.join(DONE), "").map_err(cannot_build(folder))?;
-        }
+        let warnings = match read_json(&folder.join(DONE)) {
+            Ok(warnings) => warnings,
+            Err(_) => self.built_by(build, workshop, folder)?,
+        };
         let missing = || format!("its build made no `{}.{}`", build.makes, ENDINGS[0]);
-        library_in(folder, Some(&build.makes)).ok_or_else(|| NoCore::Authors(missing()))
+        let core = library_in(folder, Some(&build.makes));
+        let core = core.ok_or_else(|| NoCore::Authors(missing()))?;
+        Ok(Built { core, warnings })
+    }
+
+    /// Carries out the suite's commands from the first on: half of a build that was cut off is worth nothing.
+    fn built_by(
+        &self,
+        build: &Build,
+        workshop: &Workshop<'_>,
+        folder: &Path,
+    ) -> Result<Vec<Warning>, NoCore> {
+        if folder.exists() {
+            std::fs::remove_dir_all(folder).map_err(cannot_build(folder))?;
+        }
+        let said = self.carry_out_all(&build.commands, build.time, workshop, folder)?;
+        let warnings = warnings(&said, &self.path);
+        write_json(&folder.join(DONE), &warnings).map_err(cannot_build(folder))?;
+        Ok(warnings)
     }
 
     /// Of all that Cargo makes, hundreds of megabytes, the library is kept.
@@ -152,27 +183,29 @@ impl Submission {
     ) -> Result<(), NoCore> {
         if workshop.user.is_some() {
             let copy = ["cp", "-R", "{submission}/.", "{build}/crate"].map(str::to_owned).to_vec();
-            return self.carry_out_all(&[copy], time, workshop, folder);
+            return self.carry_out_all(&[copy], time, workshop, folder).map(drop);
         }
         copy_tree(&self.path, &folder.join("crate")).map_err(cannot_build(folder))
     }
 
+    /// One command after the other, and what they said.
     fn carry_out_all(
         &self,
         commands: &[Vec<String>],
         time: Duration,
         workshop: &Workshop<'_>,
         folder: &Path,
-    ) -> Result<(), NoCore> {
+    ) -> Result<String, NoCore> {
         std::fs::create_dir_all(folder).map_err(cannot_build(folder))?;
         if let Some(user) = workshop.user {
             give(folder, user).map_err(NoCore::Machines)?;
         }
+        let mut said = String::new();
         for command in commands {
             let words = self.filled(command, &workshop.project.of_the_bench(""), folder);
-            self.carry_out(&by(workshop.user, words), time, folder)?;
+            said += &self.carry_out(&by(workshop.user, words), time, folder)?;
         }
-        Ok(())
+        Ok(said)
     }
 
     /// A command with the folders in the places of their names.
@@ -187,8 +220,8 @@ impl Submission {
         filled.collect()
     }
 
-    fn carry_out(&self, words: &[String], time: Duration, folder: &Path) -> Result<(), NoCore> {
-        let Some((program, arguments)) = words.split_first() else { return Ok(()) };
+    fn carry_out(&self, words: &[String], time: Duration, folder: &Path) -> Result<String, NoCore> {
+        let Some((program, arguments)) = words.split_first() else { return Ok(String::new()) };
         let mut command = Command::new(program);
         // Who builds runs what was handed in: the salt is not for it to know.
         command.args(arguments).envs(cached()).env_remove(SALT_VARIABLE);
@@ -205,7 +238,7 @@ impl Submission {
             }
         };
         if status.success() {
-            return Ok(());
+            return Ok(said.all());
         }
         let here = [self.path.to_string_lossy(), folder.to_string_lossy()];
         let told = here.iter().fold(said.all(), |told, here| told.replace(&**here, ""));
@@ -216,7 +249,7 @@ impl Submission {
     }
 }
 
-fn cannot_build(folder: &Path) -> impl Fn(io::Error) -> NoCore {
+fn cannot_build<E: fmt::Display>(folder: &Path) -> impl Fn(E) -> NoCore {
     move |error| NoCore::Machines(format!("cannot build in {}: {error}", folder.display()))
 }
 

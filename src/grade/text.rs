@@ -1,6 +1,6 @@
 //! A grade on the terminal: its parts, where points are lost or open, and why.
 
-use super::{CaseGrade, Grade, Standing, Told, hundredths};
+use super::{CaseGrade, Grade, Standing, Told, hundredths, warning};
 use crate::report::text::clean;
 use crate::text::number::count;
 
@@ -34,6 +34,10 @@ pub(crate) fn table(grade: &Grade) -> String {
         lines.push("\n  what is wrong".to_owned());
     }
     lines.extend(grade.causes.iter().flat_map(what_is_wrong));
+    if !grade.warnings.is_empty() {
+        lines.push("\n  what the compiler warned of".to_owned());
+    }
+    lines.extend(warning::shown(&grade.warnings).iter().map(|it| format!("    {}", clean(it))));
     lines.join("\n") + "\n"
 }
 

@@ -10,7 +10,7 @@ use crate::cli::say::{complain, say_line};
 use crate::cli::{Answer, ExitCode, Failure};
 use crate::cores::CoreSpec;
 use crate::grade::class::{Class, Row, page, table};
-use crate::grade::{Grade, NoCore, SALT_VARIABLE, Submission};
+use crate::grade::{Built, Grade, NoCore, SALT_VARIABLE, Submission};
 use crate::report::{self, RunTree};
 use crate::run::record::{read_json, write_json};
 use crate::run::{self, Event, RunError};
@@ -208,7 +208,9 @@ fn of_one(
     tell(Step::Builds);
     let builds = home.join("builds").join(key);
     let mut grade = match submission.core(&desk.workshop(arguments), &builds) {
-        Ok(core) => of_core(arguments, desk, &core, &runs, tell)?,
+        Ok(Built { core, warnings }) => {
+            Grade { warnings, ..of_core(arguments, desk, &core, &runs, tell)? }
+        }
         Err(NoCore::Authors(problem)) => Grade::absent(&desk.suite, "", &problem),
         // That is nobody's grade.
         Err(NoCore::Machines(problem)) => return Err(Failure::broken(problem)),

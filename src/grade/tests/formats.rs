@@ -163,6 +163,10 @@ fn github_gets_a_line_a_command_with_nothing_left_to_escape() {
         line.match_indices('%').for_each(|(at, _)| assert!(is_escaped(at), "{line}"));
         assert!(!message.is_empty());
     }
+    let [file, message] = ["src/a,b.cpp", "50% lost"].map(str::to_owned);
+    let warnings = vec![Warning { file, line: 7, message, function: String::new() }];
+    let warned = github::annotations(&Grade { warnings, ..grade() });
+    assert_eq!(warned, told + "::warning file=src/a%2Cb.cpp,line=7::50%25 lost\n");
     let summary = github::summary(&grade());
     assert!(summary.contains("| Rays | "), "{summary}");
     assert!(summary.len() < 1 << 20);

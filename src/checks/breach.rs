@@ -12,7 +12,8 @@ pub(crate) fn failure(breach: &Breach) -> Finding {
 }
 
 /// The same with what the check found once it was mended. What is wrong then as well is behind the breach:
-/// weights that are another corner's give normals that are not unit, and to normalise them mends nothing.
+/// weights that are another corner's give normals that are not unit, and to normalise them mends nothing. Where one formula
+/// gives what is left once all is made unit, both are there.
 pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError>) -> Finding {
     let (alone, mend) = (failure(breach), breach.mend().unwrap_or_default());
     match mended {
@@ -21,8 +22,17 @@ pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError
             let not_enough = cause_of(breach).map(|cause| cause.name.to_owned());
             // What lies between the ends of a range has broken the contract, too: it is not the ends that were forgotten.
             let is_of_ends = |clue: &Clue| clue.cause == sampling::ENDS_OF_RANGE.name;
-            let clues = found.clues.into_iter().filter(|clue| !is_of_ends(clue)).collect();
-            Finding { statement, not_enough, clues, ..found }
+            let clues = found.clues.into_iter().filter(|clue| !is_of_ends(clue));
+            let mut clues: Vec<_> = clues.collect();
+            let beside = match (&breach.kind, &mut clues[..]) {
+                (BreachKind::NotUnit(_), [only]) => {
+                    only.beside = true;
+                    cause_of(breach)
+                }
+                _ => None,
+            };
+            let found = Finding { statement, not_enough, clues, ..found };
+            found.because_all(beside, &breach.to_string())
         }
         Ok(found) if found.verdict == Verdict::Pass => {
             let evidence = format!("{breach}; {mend}, everything else is right");
@@ -75,6 +85,10 @@ mod tests {
         );
         let at_an_end = Finding::failure("a sample is NaN").because(&sampling::ENDS_OF_RANGE, "0");
         assert!(failure_beside(&breach, Ok(at_an_end)).clues.is_empty());
+        let moved = Finding::failure("7 wrong").because(&shape::NORMALS_MOVED_ON, "all 9 rays");
+        let both = failure_beside(&breach, Ok(moved)).clues;
+        let both: Vec<_> = both.iter().map(|clue| (&clue.cause[..], clue.beside)).collect();
+        assert_eq!(both, [("normals-moved-on", true), ("normal-not-unit", true)]);
         let right = Finding { verdict: Verdict::Pass, ..Finding::failure("all normals are right") };
         let alone = failure_beside(&breach, Ok(right));
         assert!(alone.failed());

@@ -43,13 +43,15 @@ pub(crate) fn suspect(evidence: &Evidence<'_>) -> Vec<Suspicion> {
     suspicions
 }
 
-/// Whether as many cases fail with it put right as those that it explains.
+/// Whether as many cases fail with it put right as those that it explains; and none shows that it is there beside the rest.
 fn is_not_enough(evidence: &Evidence<'_>, cause: &str) -> bool {
     let findings = || evidence.failures().filter_map(|failure| failure.finding);
     let remains = |finding: &&Finding| finding.not_enough.as_deref() == Some(cause);
     let explained = |finding: &&Finding| finding.clues.iter().any(|clue| clue.cause == cause);
+    let is_there =
+        |finding: &Finding| finding.clues.iter().any(|clue| clue.beside && clue.cause == cause);
     let remaining = findings().filter(remains).count();
-    remaining > 0 && remaining >= findings().filter(explained).count()
+    remaining > 0 && remaining >= findings().filter(explained).count() && !findings().any(is_there)
 }
 
 #[cfg(test)]
@@ -65,6 +67,9 @@ mod tests {
         let beside = || Finding { not_enough: not_enough.clone(), ..failing("made unit, wrong") };
         let once = Made::new().with("shape/a", unit()).with("shape/b", beside());
         assert_eq!(suspect(&once.evidence()).len(), 0);
+        let both = [&shape::NORMAL_NOT_UNIT];
+        let of_all = once.with("shape/c", beside().because_all(both, "1.1"));
+        assert_eq!(suspect(&of_all.evidence()).len(), 2);
         let twice = Made::new().with("shape/a", unit()).with("shape/b", beside());
         assert_eq!(suspect(&twice.with("shape/c", unit()).evidence()).len(), 2);
     }

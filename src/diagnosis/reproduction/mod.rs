@@ -12,7 +12,7 @@ mod siblings;
 
 use self::asking::{is_of_one_part, likenesses, quickest};
 use super::rank::Ranked;
-use super::{Evidence, Suspicion, look_without};
+use super::{Degree, Evidence, Headline, Suspicion, look_without};
 use crate::cause::Cause;
 use crate::checks::Finding;
 use crate::contract::Components;
@@ -127,9 +127,22 @@ pub(super) fn without_what_follows(
         told.explain(cause, &cases);
     }
     // One darkness may go through several components.
-    let lost = proof.lost_among_the_dark(&told);
-    told.doubt(|headline| lost.iter().any(|(cause, _)| *cause == headline.cause));
+    let lost: Vec<_> = told.with_cause().filter(|one| is_lost(one, &told, &proof)).collect();
+    let lost: Vec<_> = lost.into_iter().map(|one| one.cause.clone()).collect();
+    told.doubt(|headline| lost.contains(&headline.cause));
     told
+}
+
+/// Whether a cause is lost in a darkness that follows from nothing else that is named.
+fn is_lost(headline: &Headline, told: &Ranked, proof: &Proof<'_>) -> bool {
+    let named = told.with_cause().filter(|one| one.degree == Degree::Named);
+    let others: Vec<_> = named.filter(|one| one.cause != headline.cause).collect();
+    let follows = |case: &str| others.iter().any(|one| one.may_follow.iter().any(|it| it == case));
+    let unexplained = proof.evidence.failures().map(|seen| seen.case);
+    let unexplained: Vec<_> = unexplained.filter(|case| !follows(case)).collect();
+    let evidence = proof.evidence.with_failures_of(&unexplained);
+    let proof = Proof { evidence: &evidence, ..*proof };
+    proof.lost_among_the_dark(told).iter().any(|(cause, _)| *cause == headline.cause)
 }
 
 /// What rules suspect, put to the proof. It takes little time; the search for what no rule knows takes much.
@@ -213,6 +226,7 @@ impl<'a> Sifted<'a> {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Proof<'a> {
     evidence: &'a Evidence<'a>,
     planted: &'a dyn Planted,

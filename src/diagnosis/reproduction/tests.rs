@@ -1022,3 +1022,24 @@ fn one_darkness_may_go_through_several_components() {
     assert_eq!(degree([0.3, 0.0]), Some(Degree::LooksLike), "some of it is left");
     assert_eq!(degree([0.0, 0.5]), Some(Degree::Named));
 }
+
+#[test]
+fn nothing_is_lost_in_a_darkness_that_follows_from_what_is_named() {
+    const NO_INDIRECT: Mistake = mistake("no-indirect", &integrator::NO_INDIRECT, "integrator/a");
+    let dark = light(0.0).because(&integrator::NO_INDIRECT, "nothing from bounce 2 on");
+    let box_test = failing("rays miss").because(&bvh::BOX_WITHOUT_Z, "x");
+    let made = Made::new().with("bvh/boxes", box_test).with("integrator/a", dark);
+    let made = made.with("light/b", light(0.0)).with("light/c", light(0.0));
+    let gives: &[(&[&str], _, _)] = &[(&["no-indirect"], "integrator/a", 0.0)];
+    let bench = Bench { mistakes: &[NO_INDIRECT], gives };
+    let degree = |follows: &[&str]| {
+        let evidence = made.evidence();
+        let mut told = look_without(&evidence, &Refuted::new(), Vec::new());
+        told.follow(&follows.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let told = without_what_follows(told, &evidence, &bench).told().headlines;
+        let mut of_cause = told.into_iter().filter(|one| one.cause == NO_INDIRECT.cause.name);
+        of_cause.next().map(|one| one.degree)
+    };
+    assert_eq!(degree(&[]), Some(Degree::LooksLike));
+    assert_eq!(degree(&["light/b", "light/c"]), Some(Degree::Named));
+}

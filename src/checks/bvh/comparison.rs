@@ -112,11 +112,20 @@ impl Differences {
 
     /// The most frequent first, in words.
     pub(crate) fn words(&self) -> String {
+        let words = |(count, what): (usize, &str)| format!("{count} {what}");
+        self.most_first().into_iter().map(words).collect::<Vec<_>>().join(", ")
+    }
+
+    /// In which ways answers differ, the most frequent first: mistakes that have none of them in common are not the same.
+    pub(crate) fn ways(&self) -> impl Iterator<Item = String> {
+        self.most_first().into_iter().map(|(_, what)| format!("there are {what}"))
+    }
+
+    fn most_first(&self) -> Vec<(usize, &'static str)> {
         let mut kinds = self.kinds().to_vec();
         kinds.retain(|(count, _)| *count > 0);
         kinds.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-        let words = |(count, what): (usize, &str)| format!("{count} {what}");
-        kinds.into_iter().map(words).collect::<Vec<_>>().join(", ")
+        kinds
     }
 
     fn kinds(&self) -> [(usize, &'static str); 7] {

@@ -44,7 +44,9 @@ fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
     let count = wrong.clone().count();
     let causes: Vec<_> = wrong.clone().map(|tried| tried.cause).collect();
     let bvhs = tried.len();
-    let statement = match wrong.max_by_key(|tried| tried.differences.total()) {
+    let worst = wrong.max_by_key(|tried| tried.differences.total());
+    let ways = worst.into_iter().flat_map(|worst| worst.differences.ways());
+    let statement = match worst {
         None if overwritten > 0 => {
             format!("{overwritten} hits without a BVH are not the nearest")
         }
@@ -57,7 +59,7 @@ fn judge(tried: &[Tried], answers: usize, overwritten: usize) -> Finding {
         ),
     };
     let caught = format!("would have caught one wrong answer in {}", one_in(answers));
-    Finding::of(statement, caught, measures).because_of(shared(&causes))
+    Finding::of(statement, caught, measures).because_of(shared(&causes)).knowing_laws(ways)
 }
 
 /// The second is shown, not graded.
@@ -103,6 +105,8 @@ mod tests {
             assert!(failure(&finding).contains(told), "{slip:?}: {}", finding.statement);
             assert!(cause.is_none_or(|cause| causes(&finding) == [cause]), "{slip:?}");
         }
-        assert!(found(Slip::KeepsTheFirstHit).statement.contains("10 of 10 BVHs"));
+        let finding = found(Slip::KeepsTheFirstHit);
+        assert!(finding.statement.contains("10 of 10 BVHs"));
+        assert_eq!(finding.laws, ["there are hits beyond the nearest one"]);
     }
 }

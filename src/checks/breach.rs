@@ -11,9 +11,8 @@ pub(crate) fn failure(breach: &Breach) -> Finding {
     Finding::failure(statement).because_each(cause_of(breach), &breach.to_string())
 }
 
-/// The same with what the check found once it was mended. What is wrong then as well is behind the breach:
-/// weights that are another corner's give normals that are not unit, and to normalise them mends nothing. Where one formula
-/// gives what is left once all is made unit, both are there.
+/// The same with what the check found once it was mended. What is wrong then as well may be what made the breach. Where one
+/// formula gives what is left once all is made unit, it made no length: both are there.
 pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError>) -> Finding {
     let (alone, mend) = (failure(breach), breach.mend().unwrap_or_default());
     match mended {

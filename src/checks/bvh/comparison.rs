@@ -118,7 +118,7 @@ impl Differences {
 
     /// In which ways answers differ, the most frequent first: mistakes that have none of them in common are not the same.
     pub(crate) fn ways(&self) -> impl Iterator<Item = String> {
-        self.most_first().into_iter().map(|(_, what)| format!("there are {what}"))
+        self.most_first().into_iter().map(|(_, what)| what.to_owned())
     }
 
     fn most_first(&self) -> Vec<(usize, &'static str)> {

@@ -107,6 +107,6 @@ mod tests {
         }
         let finding = found(Slip::KeepsTheFirstHit);
         assert!(finding.statement.contains("10 of 10 BVHs"));
-        assert_eq!(finding.laws, ["there are hits beyond the nearest one"]);
+        assert_eq!(finding.laws, ["hits beyond the nearest one"]);
     }
 }

@@ -127,8 +127,8 @@ pub(super) fn without_what_follows(
         told.explain(cause, &cases);
     }
     // One darkness may go through several components.
-    let lost: Vec<_> = told.with_cause().filter(|one| is_lost(one, &told, &proof)).collect();
-    let lost: Vec<_> = lost.into_iter().map(|one| one.cause.clone()).collect();
+    let lost = told.with_cause().filter(|one| is_lost(one, &told, &proof));
+    let lost: Vec<_> = lost.map(|one| one.cause.clone()).collect();
     told.doubt(|headline| lost.contains(&headline.cause));
     told
 }

@@ -2,8 +2,8 @@
 //!
 //! A [`Suite`] is a file: parts with points, and the cases of each. A [`Grade`] is a pure function of a suite and the
 //! folder of a run, and each format in which it is told (`text`, `gradescope`, `junit`, `github`, `csv`) a pure function of
-//! a grade. Verdicts are the run's: nothing is judged here. What each verdict is worth stands in `score`, and for teachers
-//! in `docs/book/src/grading.md`.
+//! a grade. Where a submission was built, what the compiler warned of is added. Verdicts are the run's: nothing is judged
+//! here. What each verdict is worth stands in `score`, and for teachers in `docs/book/src/grading.md`.
 
 pub(crate) mod class;
 pub(crate) mod csv;

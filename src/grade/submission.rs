@@ -167,7 +167,7 @@ impl Submission {
         let made = made.ok_or_else(|| NoCore::Authors(NO_LIBRARY.to_owned()))?;
         let kept = folder.join(made.file_name().unwrap_or_default());
         std::fs::copy(&made, &kept)
-            .and_then(|_| std::fs::write(folder.join(DONE), ""))
+            .and_then(|_| std::fs::write(folder.join(DONE), "[]"))
             .and_then(|()| std::fs::remove_dir_all(folder.join(TARGET)))
             .map_err(cannot_build(folder))?;
         Ok(kept)
@@ -225,6 +225,8 @@ impl Submission {
         let mut command = Command::new(program);
         // Who builds runs what was handed in: the salt is not for it to know.
         command.args(arguments).envs(cached()).env_remove(SALT_VARIABLE);
+        // GCC's warnings are read in English.
+        command.env("LANGUAGE", "en");
         let ran = process::run(&mut command, folder, time, Group::Own);
         let cannot_run = |error| NoCore::Machines(format!("cannot run `{program}`: {error}"));
         let (ended, said) = ran.map_err(cannot_run)?;

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 /// Those that are shown of a submission.
 const MOST: usize = 12;
 
-/// One warning.
+/// A compiler's warning of a line that was handed in.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Warning {
@@ -79,8 +79,10 @@ pub(super) fn warnings(said: &str, submission: &Path) -> Vec<Warning> {
 }
 
 fn warning(warned: &Captures<'_>, function: &str, submission: &Path) -> Option<Warning> {
-    let inside = Path::new(&warned["file"]).strip_prefix(submission).ok()?;
-    let file = inside.to_string_lossy().replace('\\', "/");
+    // A compiler may name the file by a link, or otherwise than this system names it in full.
+    let path = Path::new(&warned["file"]);
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let file = path.strip_prefix(submission).ok()?.to_string_lossy().replace('\\', "/");
     let message = warned["message"].trim().to_owned();
     Some(Warning {
         file,

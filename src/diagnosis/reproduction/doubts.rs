@@ -216,7 +216,8 @@ impl<'a> Proof<'a> {
     }
 
     /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
-    /// mistake, or among twice as much in all parts: one mistake is all there is.
+    /// mistake, or among twice as much in all parts: one mistake is all there is. Light that does not arrive is no such crowd
+    /// for what functions answer.
     fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
         let explains = |one: &Headline, seen: &Observation<'_>| {
@@ -224,16 +225,20 @@ impl<'a> Proof<'a> {
         };
         let dark: Vec<_> = self.evidence.failures().filter(|seen| seen.is_dark()).collect();
         let is_free = |seen: &&&Observation<'_>| !told.iter().any(|one| explains(one, seen));
-        let free: Vec<_> = dark.iter().filter(is_free).map(|seen| seen.case.to_owned()).collect();
+        let free: Vec<_> = dark.iter().filter(is_free).collect();
         let is_lost = |one: &&&Headline| {
-            let own = dark.iter().filter(|seen| explains(one, seen)).count();
+            let own: Vec<_> = dark.iter().filter(|seen| explains(one, seen)).collect();
+            let may_crowd = own.iter().any(|seen| seen.is_about_light());
+            let crowd = free.iter().filter(|seen| may_crowd || !seen.is_about_light());
+            let free: Vec<_> = crowd.map(|seen| seen.case.to_owned()).collect();
             let of_part: Vec<_> =
                 free.iter().filter(|case| is_of_one_part(one, case)).cloned().collect();
             let is_lost_in = |others: &[String], least: usize| {
                 others.len() >= least && self.are_right(one, others)
             };
-            own == one.explains.len()
-                && (is_lost_in(&of_part, own) || is_lost_in(&free, siblings::OUTNUMBERED * own))
+            own.len() == one.explains.len()
+                && (is_lost_in(&of_part, own.len())
+                    || is_lost_in(&free, siblings::OUTNUMBERED * own.len()))
         };
         told.iter().filter(is_lost).copied().filter_map(all_of).flatten().collect()
     }

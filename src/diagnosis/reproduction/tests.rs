@@ -231,6 +231,25 @@ fn a_cause_of_darkness_that_all_others_leave_dark_is_not_told() {
 }
 
 #[test]
+fn what_functions_answer_is_not_lost_in_light_that_does_not_arrive() {
+    let dark_beside = |others: [&'static str; 2]| {
+        let seen = light(0.0).because(&bsdf::WITHOUT_PI, "no answer");
+        let made = Made::new().with("bsdf/a", seen);
+        let made = others.into_iter().fold(made, |made, case| made.with(case, light(0.0)));
+        let [b, c] = others;
+        let gives: [(&[&str], &str, f64); 3] =
+            [(&["pi"], "bsdf/a", 0.0), (&["pi"], b, 1.0), (&["pi"], c, 1.0)];
+        let diagnosis =
+            diagnose_proven(&made.evidence(), &Bench { mistakes: &[PI], gives: &gives });
+        let told = diagnosis.headlines.into_iter().find(|told| told.explains == ["bsdf/a"]);
+        told.map(|told| (told.cause, told.degree))
+    };
+    let named = Some((bsdf::WITHOUT_PI.name.to_owned(), Degree::Named));
+    assert_eq!(dark_beside(["light/b", "integrator/c"]), named);
+    assert_ne!(dark_beside(["bsdf/b", "bsdf/c"]), named, "functions are a crowd for functions");
+}
+
+#[test]
 fn what_a_named_mistake_leaves_dark_as_it_is_follows_from_it() {
     let gives: [(&[&str], &str, f64); 3] =
         [(&["pi"], "bsdf/a", 2.0), (&["pi"], "light/b", 0.0), (&["cosine"], "light/b", 0.0)];

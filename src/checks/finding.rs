@@ -103,6 +103,9 @@ pub(crate) const STANDARD_ERRORS: &str = "standard errors";
 const OF_ONE: f64 = 3.29;
 /// With a larger error than this an integral is not known.
 const KNOWN: f64 = 0.1;
+/// Below this share of what it should be a number is next to nothing, and its size says no more than 0 does. Counts of
+/// samples that divide once too often leave more.
+const VANISHING: f64 = 1.0 / 5000.0;
 /// Of many answers to one question, the one that is told.
 const WORST: &str = ", worst of ";
 
@@ -240,9 +243,10 @@ impl Measure {
         self.verdict == Verdict::Fail
     }
 
-    /// Wrong, and 0 or NaN: many mistakes have that in common.
+    /// Wrong, and NaN or next to nothing of what it should be: many mistakes have that in common.
     pub(crate) fn is_degenerate(&self) -> bool {
-        self.failed() && (self.measured == 0.0 || self.measured.is_nan())
+        let is_vanishing = self.measured.abs() <= VANISHING * self.expected.abs();
+        self.failed() && (is_vanishing || self.measured == 0.0 || self.measured.is_nan())
     }
 
     /// Whether it is an answer that is yes or no, such as whether a ray hits.
@@ -518,6 +522,13 @@ mod tests {
     fn nan_fails_and_nothing_is_no_pass() {
         assert_eq!(Measure::exact("t", f64::NAN, 1.0, 1e9).verdict, Verdict::Fail);
         assert_eq!(Finding::of("", "", Vec::new()).verdict, Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn next_to_nothing_has_no_size_and_a_sample_count_too_many_has() {
+        let is_degenerate = |measured| Measure::exact("t", measured, 3.0, 1e-9).is_degenerate();
+        assert!([0.0, 2e-5, -2e-5, f64::NAN].into_iter().all(is_degenerate));
+        assert!(![3.0 / 4096.0, 3.0].into_iter().any(is_degenerate));
     }
 
     #[test]

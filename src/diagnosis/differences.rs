@@ -105,7 +105,7 @@ impl Bounces {
 
 fn how(group: &[&Observation<'_>]) -> &'static str {
     match group.iter().all(|seen| seen.is_about_light() && seen.is_dark()) {
-        true => "is 0 or NaN",
+        true => "is dark or NaN",
         false => "differs",
     }
 }

@@ -70,7 +70,7 @@ impl Observation<'_> {
         self.standing == Standing::Failed
     }
 
-    /// Whether all that is wrong is 0 or NaN.
+    /// Whether all that is wrong is next to nothing, or NaN.
     pub(crate) fn is_dark(&self) -> bool {
         self.is_wrong_by(Measure::is_degenerate)
     }

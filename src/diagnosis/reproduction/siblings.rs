@@ -106,17 +106,25 @@ impl<'a> Proof<'a> {
         ranked.with_cause().filter(is_lost).filter_map(all_of).flatten().collect()
     }
 
-    /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise. Where it
-    /// breaks the contract there, and nothing that is told does, what is named is none, too.
+    /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise. So are
+    /// names where another name explains such a case, or where the core breaks the contract in it and nothing that is told
+    /// does.
     pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {
         let all: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
+        let named: Vec<_> =
+            ranked.with_cause().filter(|told| told.degree == Degree::Named).collect();
         let is_refuted = |headline: &&Headline| {
             let is_likeness = headline.degree == Degree::LooksLike;
             let is_needed = self.is_needed(headline);
+            // Its own cases are passed over here, so that whatever explains one is another.
+            let has_a_name = |seen: &Observation<'_>| {
+                named.iter().any(|one| one.explains.iter().any(|case| case == seen.case))
+            };
             let is_unlike = |seen: &Observation<'_>, planted: &Finding| {
                 let is_other = likeness(seen.finding, planted) == Likeness::Other;
                 let breaks = || seen.finding.is_some_and(|core| breaks_otherwise(core, planted));
-                is_likeness && is_other || !is_needed && breaks()
+                let may_be_other = is_likeness || !is_needed && has_a_name(seen);
+                may_be_other && is_other || !is_needed && breaks()
             };
             let mut mistakes = self.of(headline).peekable();
             mistakes.peek().is_some()

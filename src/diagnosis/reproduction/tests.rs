@@ -231,6 +231,32 @@ fn a_cause_of_darkness_that_all_others_leave_dark_is_not_told() {
 }
 
 #[test]
+fn a_mistake_that_would_change_what_another_name_explains_is_not_told() {
+    const BY_PI: [(&str, f64); 4] =
+        [("light/c", 2.0), ("light/d", 5.0), ("light/e", 9.0), ("light/f", 0.2)];
+    let made = Made::new().with("light/b", light(3.0).because(&light::WORLD_COSINE, "too bright"));
+    let made = made.with("bsdf/a", light(3.0));
+    let made = BY_PI.into_iter().fold(made, |made, (case, of)| made.with(case, light(of)));
+    let names = |of_both: f64| {
+        let mut gives: Vec<(&[&str], &str, f64)> = vec![
+            (&["cosine"], "light/b", 3.0),
+            (&["pi", "cosine"], "light/b", 3.0),
+            (&["cosine"], "bsdf/a", 3.0),
+            (&["pi"], "bsdf/a", 0.4),
+            (&["pi", "cosine"], "bsdf/a", of_both),
+        ];
+        gives.extend(BY_PI.map(|(case, of)| (&["pi"][..], case, of)));
+        gives.extend(BY_PI.map(|(case, of)| (&["pi", "cosine"][..], case, of)));
+        let planted = Bench { mistakes: &[PI, COSINE], gives: &gives };
+        let diagnosis = diagnose_proven(&made.evidence(), &planted);
+        diagnosis.headlines.into_iter().map(|told| told.cause).collect::<Vec<_>>()
+    };
+    let pi = bsdf::WITHOUT_PI.name.to_owned();
+    assert!(names(3.0).contains(&pi), "beside the other it changes nothing there");
+    assert!(!names(0.4).contains(&pi), "its own case would come out otherwise");
+}
+
+#[test]
 fn what_functions_answer_is_not_lost_in_light_that_does_not_arrive() {
     let dark_beside = |others: [&'static str; 2]| {
         let seen = light(0.0).because(&bsdf::WITHOUT_PI, "no answer");

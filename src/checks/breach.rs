@@ -33,12 +33,16 @@ pub(crate) fn failure_beside(breach: &Breach, mended: Result<Finding, CheckError
             let found = Finding { statement, not_enough, clues, ..found };
             found.because_all(beside, &breach.to_string())
         }
-        Ok(found) if found.verdict == Verdict::Pass => {
-            let evidence = format!("{breach}; {mend}, everything else is right");
-            Finding { clues: Vec::new(), ..alone }.because_each(cause_of(breach), &evidence)
-        }
+        Ok(found) if found.verdict == Verdict::Pass => failure_alone(breach, "is right"),
         _ => alone,
     }
+}
+
+/// The failure where everything else is right once it is mended; `is_right` says how right.
+pub(crate) fn failure_alone(breach: &Breach, is_right: &str) -> Finding {
+    let mend = breach.mend().unwrap_or_default();
+    let evidence = format!("{breach}; {mend}, everything else {is_right}");
+    Finding { clues: Vec::new(), ..failure(breach) }.because_each(cause_of(breach), &evidence)
 }
 
 /// The mistake that a breach of the contract is, if its kind says so.

@@ -5,7 +5,7 @@ use super::shared::Shared;
 use super::{Degree, Evidence, Observation};
 use crate::case::{Part, Tier};
 use crate::cause::{self, Cause};
-use crate::checks::law::LOST_SAMPLES;
+use crate::checks::law::{LOST_SAMPLES, ROUNDED};
 use crate::contract::Components;
 use serde::{Deserialize, Serialize};
 
@@ -52,15 +52,19 @@ pub struct Headline {
 }
 
 /// The laws of what failed. A share of lost samples may be half by chance, where half of the light is lost and half of the
-/// directions are dark in their own right: it is told of most of the light that failed, or not at all.
+/// directions are dark in their own right: it is told of most of the light that failed, or not at all. What is right to single
+/// precision is told where all is.
 fn laws<'e, 'a: 'e>(failures: impl Iterator<Item = &'e Observation<'a>>) -> Vec<String> {
-    let (mut laws, mut light, mut losing) = (Vec::new(), 0, 0);
+    let (mut laws, mut light, mut losing, mut is_rounded) = (Vec::new(), 0, 0, true);
     for (failure, finding) in failures.filter_map(|failure| Some((failure, failure.finding?))) {
+        let has = |law: &str| finding.laws.iter().any(|of_finding| of_finding == law);
         light += usize::from(failure.is_about_light() && !failure.is_dark());
-        losing += usize::from(finding.laws.iter().any(|law| law == LOST_SAMPLES));
+        losing += usize::from(has(LOST_SAMPLES));
+        is_rounded &= has(ROUNDED);
         laws.extend(finding.laws.iter().cloned());
     }
     laws.retain(|law| law != LOST_SAMPLES || 2 * losing > light);
+    laws.retain(|law| law != ROUNDED || is_rounded);
     laws
 }
 

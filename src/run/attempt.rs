@@ -5,19 +5,21 @@ use super::outcome::{Outcome, Status};
 use super::plan::Trial;
 use super::record::{self, SceneStamp, TrialRecord, TrialTiming};
 use super::schedule::Transplant;
-use crate::case::{Case, Tier, asked_about};
+use crate::case::{Case, Subject, Tier, asked_about};
 use crate::cause::bvh;
-use crate::checks::breach::failure_beside;
+use crate::checks::breach::{failure_alone, failure_beside};
+use crate::checks::law::{RIGHT_BUT_ROUNDED, ROUNDED};
 use crate::checks::{CheckError, Context, Finding, Picture};
 use crate::contract::turned::Turned;
 use crate::contract::validate::Validated;
-use crate::contract::{Capabilities, Circumstances, Components, Core, CoreError, Work};
+use crate::contract::{Capabilities, Circumstances, Components, Core, CoreError, CoreInfo, Work};
 use crate::cores::HostError;
+use crate::math::Precision;
 use crate::math::rng::Seed;
 use crate::scene::SceneDescription;
 use crate::scene::hash::content_hash;
 use crate::scene::motion::Motion;
-use crate::stats::Budget;
+use crate::stats::{Budget, Verdict};
 use crate::text::program;
 use crate::worker::StartError;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -268,7 +270,8 @@ fn stamp(scene: &SceneDescription, motion: &Motion) -> SceneStamp {
     }
 }
 
-/// Puts the case to the core; once more where directions are not unit, with those that were meant.
+/// Puts the case to the core; once more where directions are not unit, with those that were meant, and where a `float` among
+/// the doubles may be all that is wrong.
 fn judge(
     bench: &Bench,
     case: &Case,
@@ -279,15 +282,41 @@ fn judge(
 ) -> Result<Finding, CheckError> {
     let mut core = Turned::new(core, bench.motion_of(case));
     let mut strict = Validated::new(&mut core).counted(work);
-    let found = run_check(bench, case, &mut strict, scene.clone(), pictures);
+    let precision = strict.info().precision;
+    let found = run_check(bench, case, &mut strict, scene.clone(), pictures, precision);
     match found {
         Err(CheckError::Core(CoreError::BrokeContract(breach))) if breach.can_be_mended() => {
-            let mut core = Validated::mending(&mut core).counted(work);
-            let mended = run_check(bench, case, &mut core, scene, pictures);
-            Ok(failure_beside(&breach, mended))
+            let mut mending = Validated::mending(&mut core).counted(work);
+            let mended = run_check(bench, case, &mut mending, scene.clone(), pictures, precision);
+            let has_failed = mended.as_ref().is_ok_and(Finding::failed);
+            Ok(match has_failed && is_only_rounded(bench, case, &mut mending, scene) {
+                true => failure_alone(&breach, RIGHT_BUT_ROUNDED),
+                false => failure_beside(&breach, mended),
+            })
+        }
+        Ok(found) if found.failed() && found.clues.is_empty() => {
+            let mut again = Validated::new(&mut core);
+            let is_rounded = is_only_rounded(bench, case, &mut again, scene);
+            Ok(found.by_law(is_rounded.then(|| ROUNDED.to_owned())))
         }
         found => found,
     }
+}
+
+/// Whether rays and hits of a core in double precision are right to single precision, as where some of its variables are.
+fn is_only_rounded(
+    bench: &Bench,
+    case: &Case,
+    core: &mut Validated<'_>,
+    scene: Option<Arc<SceneDescription>>,
+) -> bool {
+    let subject = Subject::of_case(&case.id);
+    let is_of_rays = matches!(subject, Some(Subject::Camera | Subject::Shape))
+        && !case.prepared.needs().intersects(Capabilities::RENDER);
+    let is_double = core.info().precision == Precision::Double;
+    let mut roughly =
+        || run_check(bench, case, core, scene.clone(), &mut Vec::new(), Precision::Single);
+    is_of_rays && is_double && roughly().is_ok_and(|found| found.verdict == Verdict::Pass)
 }
 
 /// Asks whether the core can, and lets the check run.
@@ -297,8 +326,9 @@ fn run_check(
     core: &mut Validated<'_>,
     scene: Option<Arc<SceneDescription>>,
     pictures: &mut Vec<Picture>,
+    precision: Precision,
 ) -> Result<Finding, CheckError> {
-    let info = core.info();
+    let info = CoreInfo { precision, ..core.info() };
     let missing = case.prepared.missing(info.capabilities);
     if missing != Capabilities::empty() {
         return Err(CoreError::Unsupported(missing).into());
@@ -338,4 +368,75 @@ fn rerun_command(bench: &Bench, trial: &Trial) -> String {
         command += &format!(" --seed {}", bench.seed.0);
     }
     command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case;
+    use crate::contract::{Acceleration, Built, Hit, Primitive, Ray, Result};
+    use crate::cores::textbook::Textbook;
+    use crate::project::Project;
+    use crate::run::{Plan, Request};
+    use std::path::Path;
+
+    /// The textbook core, with this done to the shading normal of each hit of a primitive.
+    struct Shading(Box<dyn Core>, fn(&mut Hit));
+
+    impl Core for Shading {
+        fn info(&self) -> CoreInfo {
+            self.0.info()
+        }
+
+        fn build_scene(
+            &mut self,
+            scene: &SceneDescription,
+            how: Acceleration,
+        ) -> Result<Built<'_>> {
+            self.0.build_scene(scene, how)
+        }
+
+        fn intersect_primitive(
+            &mut self,
+            primitive: &Primitive,
+            rays: &[Ray],
+            hits: &mut [Hit],
+        ) -> Result<()> {
+            self.0.intersect_primitive(primitive, rays, hits)?;
+            hits.iter_mut().filter(|hit| hit.is_hit()).for_each(self.1);
+            Ok(())
+        }
+    }
+
+    fn found(normals: fn(&mut Hit)) -> Finding {
+        const CASE: &str = "shape/shading-normals-are-interpolated";
+        let project = Project::at(Path::new(env!("CARGO_MANIFEST_DIR")));
+        let cases = case::load_all(&project.cases()).unwrap();
+        let (cores, filters) = (vec!["textbook".parse().unwrap()], vec![CASE.to_owned()]);
+        let request = Request { cores, filters, ..Request::default() };
+        let bench = Plan::new(project, request, &cases).unwrap().bench();
+        let case = cases.iter().find(|case| case.id == CASE).unwrap();
+        let mut core = Shading(Box::new(Textbook::new()), normals);
+        attempt(&bench, case, &mut core).outcome.finding().unwrap().clone()
+    }
+
+    #[test]
+    fn a_float_among_doubles_is_told_and_hides_no_missing_normalisation() {
+        let rounded = |hit: &mut Hit| {
+            hit.shading_normal = hit.shading_normal.as_vec3().as_dvec3();
+        };
+        let finding = found(rounded);
+        assert!(finding.failed() && finding.statement.ends_with(ROUNDED), "{}", finding.statement);
+        let wrong = found(|hit| hit.shading_normal = -hit.shading_normal);
+        assert!(wrong.failed() && !wrong.statement.ends_with(ROUNDED), "{}", wrong.statement);
+        let short = found(|hit| {
+            hit.shading_normal = (0.9 * hit.shading_normal.as_vec3()).as_dvec3();
+        });
+        assert_eq!(short.clues[0].cause, "normal-not-unit");
+        assert!(
+            short.clues[0].evidence.ends_with(RIGHT_BUT_ROUNDED),
+            "{}",
+            short.clues[0].evidence
+        );
+    }
 }

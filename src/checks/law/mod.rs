@@ -19,6 +19,13 @@ pub(crate) use place::place_of_wrong;
 use product::{Rule, Search};
 pub(crate) use replaced::{Formula, are_right, replaced};
 
+/// The law of answers in double precision that are as right as single precision comes.
+pub(crate) const ROUNDED: &str =
+    "right to single precision alone, as with a `float` among the doubles";
+/// The same of all but what was mended.
+pub(crate) const RIGHT_BUT_ROUNDED: &str =
+    "is right to single precision, as with a `float` among the doubles";
+
 /// What a law may be made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terms {

@@ -392,7 +392,7 @@ enum { /* furnace_conventions; 0 is the default of every field */
  * other sphere; over all directions for a sky. They have no normal: a shadow ray that is shortened along the normal of
  * the light is shortened along itself instead. */
 enum {
-   FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,
+   FURNACE_TAKES_RANDOM_NUMBERS = 1u << 0,     /* none: a generator that you trust, in place of yours */
    FURNACE_TAKES_CAMERA = 1u << 1,             /* generate_rays */
    FURNACE_TAKES_TRIANGLE_TEST = 1u << 2,      /* intersect_triangle */
    FURNACE_TAKES_SPHERE_TEST = 1u << 3,        /* intersect_sphere */
@@ -488,7 +488,7 @@ typedef struct furnace_core {
    /* appended functions go here */
 } furnace_core;
 
-/* The bench's own components: the functions that stand beside FURNACE_TAKES_..., of a core that is
+/* The bench's own components: the functions that stand beside FURNACE_TAKES_... above, of a core that is
  * right and follows your conventions. Call them with bench->self, and with furnace_build.bench where
  * they want a scene, for one element or many, from any thread. Their random numbers follow from
  * furnace_integrator.seed and the element's place in the batch: give each call a seed of its own.

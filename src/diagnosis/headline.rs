@@ -55,17 +55,20 @@ pub struct Headline {
 /// directions are dark in their own right: it is told of most of the light that failed, or not at all. What is right to single
 /// precision is told where all is.
 fn laws<'e, 'a: 'e>(failures: impl Iterator<Item = &'e Observation<'a>>) -> Vec<String> {
-    let (mut laws, mut light, mut losing, mut is_rounded) = (Vec::new(), 0, 0, true);
+    let (mut laws, mut light, mut losing, mut are_rounded) = (Vec::new(), 0, 0, true);
     for (failure, finding) in failures.filter_map(|failure| Some((failure, failure.finding?))) {
-        let has = |law: &str| finding.laws.iter().any(|of_finding| of_finding == law);
         light += usize::from(failure.is_about_light() && !failure.is_dark());
-        losing += usize::from(has(LOST_SAMPLES));
-        is_rounded &= has(ROUNDED);
+        losing += usize::from(finding.laws.iter().any(|law| law == LOST_SAMPLES));
+        are_rounded &= is_rounded(&finding.laws);
         laws.extend(finding.laws.iter().cloned());
     }
     laws.retain(|law| law != LOST_SAMPLES || 2 * losing > light);
-    laws.retain(|law| law != ROUNDED || is_rounded);
+    laws.retain(|law| law != ROUNDED || are_rounded);
     laws
+}
+
+fn is_rounded(laws: &[String]) -> bool {
+    laws.iter().any(|law| law == ROUNDED)
 }
 
 impl Headline {
@@ -179,7 +182,9 @@ impl Headline {
     /// Takes in another headline of the same cause.
     pub(super) fn absorb(&mut self, other: Self) {
         self.degree = self.degree.max(other.degree);
+        let [is_rounded, other_is] = [&self.laws, &other.laws].map(|laws| is_rounded(laws));
         self.laws.extend(other.laws);
+        self.laws.retain(|law| law != ROUNDED || is_rounded && other_is);
         self.evidence.extend(other.evidence);
         self.evidence.truncate(EVIDENCE);
         for case in other.explains {

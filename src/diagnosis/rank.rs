@@ -561,7 +561,7 @@ fn attribute(
 mod tests {
     use crate::case::{Foundation, Tier};
     use crate::cause::{bsdf, bvh, camera, contract, image, integrator, light, shape};
-    use crate::checks::law::LOST_SAMPLES;
+    use crate::checks::law::{LOST_SAMPLES, ROUNDED};
     use crate::diagnosis::testing::{Made, failing, mean, means, passing};
     use crate::diagnosis::{Degree, diagnose};
     use crate::image::Channel;
@@ -585,6 +585,23 @@ mod tests {
         };
         assert!(told(0) && told(1));
         assert!(!told(2) && !told(9));
+    }
+
+    #[test]
+    fn a_float_is_told_where_all_that_fails_is_rounded() {
+        let rounded = || failing("7 wrong").knowing_laws([ROUNDED.to_owned()]);
+        let told = |other| {
+            let made = Made::new().with("shape/a", rounded()).with("shape/b", other);
+            diagnose(&made.evidence()).headlines[0].mistake.contains(ROUNDED)
+        };
+        assert!(told(rounded()) && !told(failing("9 wrong")));
+        let headline = |laws: &[&str]| super::Headline {
+            laws: laws.iter().map(|law| (*law).to_owned()).collect(),
+            ..Default::default()
+        };
+        let both = |laws: &[&str]| headline(&[ROUNDED]).and(headline(laws)).laws;
+        assert_eq!(both(&[]), Vec::<String>::new());
+        assert_eq!(both(&[ROUNDED]), [ROUNDED, ROUNDED]);
     }
 
     #[test]

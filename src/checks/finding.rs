@@ -103,8 +103,8 @@ pub(crate) const STANDARD_ERRORS: &str = "standard errors";
 const OF_ONE: f64 = 3.29;
 /// With a larger error than this an integral is not known.
 const KNOWN: f64 = 0.1;
-/// Below this share of what it should be a number is next to nothing, and its size says no more than 0 does. Counts of
-/// samples that divide once too often leave more.
+/// Below this share of what it should be a number is next to nothing, and its size says no more than 0 does. A number of
+/// samples that divides once too often leaves more: no case takes more than 4096 of a light.
 const VANISHING: f64 = 1.0 / 5000.0;
 /// Of many answers to one question, the one that is told.
 const WORST: &str = ", worst of ";

@@ -289,7 +289,8 @@ fn judge(
             let mut mending = Validated::mending(&mut core).counted(work);
             let mended = run_check(bench, case, &mut mending, scene.clone(), pictures, precision);
             let has_failed = mended.as_ref().is_ok_and(Finding::failed);
-            Ok(match has_failed && is_only_rounded(bench, case, &mut mending, scene) {
+            let mut again = Validated::mending(&mut core);
+            Ok(match has_failed && is_only_rounded(bench, case, &mut again, scene) {
                 true => failure_alone(&breach, RIGHT_BUT_ROUNDED),
                 false => failure_beside(&breach, mended),
             })
@@ -304,6 +305,7 @@ fn judge(
 }
 
 /// Whether rays and hits of a core in double precision are right to single precision, as where some of its variables are.
+/// What it is asked for that is no work of the case.
 fn is_only_rounded(
     bench: &Bench,
     case: &Case,

@@ -215,8 +215,8 @@ impl<'a> Proof<'a> {
         !giving.is_empty() && with.iter().all(|of_set| of_set.iter().any(is_other))
     }
 
-    /// Causes that speak from answers of 0 or NaN alone, in a part where as much else is 0 or NaN that is right with their
-    /// mistake, or among twice as much in all parts: one mistake is all there is. Light that does not arrive is no such crowd
+    /// Causes that speak from dark answers alone, in a part where as much else is dark that is right with their mistake,
+    /// or among twice as much in all parts: one mistake is all there is. Light that does not arrive is no such crowd
     /// for what functions answer.
     fn lost_in_the_dark(&self, ranked: &Ranked) -> Refuted {
         let told: Vec<_> = ranked.with_cause().collect();
@@ -274,7 +274,7 @@ impl<'a> Proof<'a> {
             && mistakes.all(|mistake| !self.made_in.may_be(mistake.components))
     }
 
-    /// Whether all that it explains is light of 0 or NaN, as many mistakes make it.
+    /// Whether all that it explains is dark light, as many mistakes make it.
     fn is_dark_alone(&self, headline: &Headline) -> bool {
         let seen = headline.explains.iter().filter_map(|case| self.evidence.failure_of(case));
         let mut seen = seen.peekable();

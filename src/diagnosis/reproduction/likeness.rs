@@ -57,7 +57,7 @@ pub(super) fn likeness(core: Option<&Finding>, planted: &Finding) -> Likeness {
         let is_same = |other: &&Measure| asks_the_same(of_core, other);
         Some((of_core, planted.measures.iter().find(is_same)?))
     });
-    // That both are 0, or NaN, many mistakes have in common.
+    // That both are dark, or NaN, many mistakes have in common.
     let tells = |(a, b): &(&Measure, &Measure)| {
         (is_off(a) || is_off(b)) && !(a.is_degenerate() && b.is_degenerate())
     };

@@ -3,7 +3,7 @@
 
 use super::rank::Ranked;
 use super::reproduction::{MadeIn, Sifted, proven, without_what_follows};
-use super::{Diagnosis, Evidence, Planted};
+use super::{Diagnosis, Evidence, Headline, Planted};
 use crate::contract::Components;
 use std::collections::BTreeMap;
 
@@ -91,15 +91,24 @@ pub(crate) fn diagnose_apart(
         }
     }
     let is_tried = |case: &str| unmended.iter().any(|other| other == case);
-    let told = told.and(left.and_searched().unless_below(broken, is_tried));
+    let mut told = told.and(left.and_searched().unless_below(broken, is_tried));
+    told.tell_beside(|headline| !is_refuted_where_graded(headline, first, views));
     without_what_follows(told, first, planted).told()
+}
+
+/// Whether a graded case showed the same as this one, which counts nothing and is not tried again, until a component of the
+/// bench mended it: then that component is told.
+fn is_refuted_where_graded(beside: &Headline, first: &Evidence<'_>, views: &[View<'_>]) -> bool {
+    let mended = first.failures().filter(|seen| views.iter().any(|view| view.mends(seen.case)));
+    let mut clues = mended.filter_map(|seen| seen.finding).flat_map(|found| &found.clues);
+    clues.any(|clue| clue.cause == beside.cause)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::case::Foundation;
-    use crate::cause::{bsdf, shape};
+    use crate::cause::{bsdf, bvh, shape};
     use crate::diagnosis::testing::{Made, Nothing, failing, passing};
     use crate::diagnosis::{Degree, Ending, diagnose};
 
@@ -237,6 +246,22 @@ mod tests {
         let told = diagnose_apart(&made.evidence(), &views, &[], &Nothing);
         let [only] = &told.headlines[..] else { panic!("{told:?}") };
         assert_eq!(only.explains, ["bvh/a", "integrator/b"]);
+    }
+
+    #[test]
+    fn what_a_component_refutes_of_a_graded_case_is_not_told_of_another() {
+        let slow = || failing("slow").because(&bvh::SEGMENT_NOT_SHORTENED, "x");
+        let told = |graded: crate::checks::Finding| {
+            let made = Made::new().with("shape/a", failing("a")).with("bvh/graded", graded);
+            let made = made.with("bvh/beside", slow()).beside_the_grade("bvh/beside");
+            let triangles = Made::new().with("shape/a", failing("a"));
+            let of_triangles = ["shape/a", "bvh/graded"];
+            let view = view(&triangles, Components::TRIANGLE_TEST, &of_triangles);
+            let told = diagnose_apart(&made.evidence(), &[view], &[], &Nothing);
+            told.headlines.into_iter().any(|one| one.cause == bvh::SEGMENT_NOT_SHORTENED.name)
+        };
+        assert!(told(failing("b")), "nothing graded showed it");
+        assert!(!told(slow()), "the triangle test mended what showed it");
     }
 
     #[test]

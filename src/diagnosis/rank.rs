@@ -179,6 +179,13 @@ impl Ranked {
         }
     }
 
+    /// Of what counts nothing, these alone are told, and causes that are told of graded cases, too.
+    pub(super) fn tell_beside(&mut self, is_told: impl Fn(&Headline) -> bool) {
+        let causes = &self.causes;
+        let is_graded = |beside: &Headline| causes.iter().any(|one| one.cause == beside.cause);
+        self.beside.retain(|beside| is_told(beside) || is_graded(beside));
+    }
+
     /// What differs, and what no more than looks like a cause.
     pub(super) fn unnamed(&self) -> impl Iterator<Item = &Headline> {
         let vague = self.causes.iter().filter(|headline| headline.degree == Degree::LooksLike);

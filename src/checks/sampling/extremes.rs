@@ -91,6 +91,8 @@ pub(crate) struct Extremes {
     complaints: Vec<String>,
     /// The numbers of samples that are wrong.
     wrong: Vec<Extreme>,
+    /// Whether some lie clearly below the horizon, which no rounding does.
+    goes_below: bool,
     /// Sets of numbers that give a sample, whatever is wrong with it.
     drawn: usize,
     asked: usize,
@@ -118,6 +120,10 @@ impl Extremes {
         };
         let answers = answers_to(&mut all_numbers(precision))?;
         let answers_between = answers_to(&mut between())?;
+        let lies_below = |(_, answer): &(Extreme, Answer)| {
+            let direction = answer.as_ref().ok().and_then(|(drawn, _)| drawn.direction);
+            direction.is_some_and(|direction| direction.z < -Tolerance::DIRECTION.of(precision))
+        };
         let ways = ways(range, precision);
         let is_wrong =
             |(_, answer): &(Extreme, Answer)| ways.iter().any(|(_, wrong)| wrong(answer).is_some());
@@ -126,6 +132,7 @@ impl Extremes {
             measures: Vec::new(),
             complaints: Vec::new(),
             wrong: Vec::new(),
+            goes_below: range == Range::Hemisphere && answers.iter().any(lies_below),
             drawn: 0,
             asked: answers.len(),
             is_wrong_between: answers_between.iter().any(is_wrong),
@@ -197,11 +204,12 @@ pub(crate) fn finding(extremes: &[Extremes]) -> Finding {
         .complaining(wrong.map(|one| format!("{}: {}", one.name, one.complaints.join("; "))));
     let of_an_end = extremes.iter().any(|one| is_of_an_end(&one.wrong));
     let wrong: usize = extremes.iter().map(|one| one.wrong.len()).sum();
-    // The ends are forgotten where what lies between is not: a sampler that fails anyway says nothing of them.
+    // The ends are forgotten where what lies between is not: a sampler that fails anyway says nothing of them. What goes
+    // below the horizon, as half vectors near the rim reflect, has forgotten that.
     let drawn: usize = extremes.iter().map(|one| one.drawn).sum();
-    let is_right_between = extremes.iter().all(|one| !one.is_wrong_between);
+    let is_wrong_elsewhere = extremes.iter().any(|one| one.is_wrong_between || one.goes_below);
     match finding.verdict {
-        Verdict::Fail if of_an_end && is_right_between && wrong < drawn => {
+        Verdict::Fail if of_an_end && !is_wrong_elsewhere && wrong < drawn => {
             let evidence =
                 format!("{wrong} of {asked} sets of extreme numbers give no proper sample");
             finding.because(&sampling::ENDS_OF_RANGE, evidence)
@@ -229,8 +237,8 @@ mod tests {
     fn an_end_is_forgotten_where_what_lies_between_is_right() {
         let told = |is_wrong: fn(&Extreme) -> bool| {
             let ask = &mut |numbers: Extreme| {
-                let z = if is_wrong(&numbers) { -1.0 } else { 1.0 };
-                Ok((Drawn { direction: Some(DVec3::new(0.0, 0.0, z)), pdf: 1.0 }, 1.0))
+                let pdf = if is_wrong(&numbers) { 0.0 } else { 1.0 };
+                Ok((Drawn { direction: Some(DVec3::Z), pdf }, pdf))
             };
             let range = Range::Hemisphere;
             let of = Extremes::of(String::new(), range, Precision::Double, 1e-6, ask).unwrap();
@@ -240,6 +248,20 @@ mod tests {
         };
         assert_eq!(told(|(point, _)| point.x < 1e-6), 1);
         assert_eq!(told(|(point, _)| point.x < 0.3), 0);
+    }
+
+    #[test]
+    fn samples_that_go_below_the_horizon_have_forgotten_the_horizon() {
+        let ask = &mut |(point, _): Extreme| {
+            let z = if point.x > 0.99 { -0.5 } else { 0.5 };
+            let direction = DVec3::new(0.75_f64.sqrt(), 0.0, z);
+            Ok((Drawn { direction: Some(direction), pdf: 1.0 }, 1.0))
+        };
+        let precision = Precision::Double;
+        let of = Extremes::of(String::new(), Range::Hemisphere, precision, 1e-6, ask).unwrap();
+        let found = finding(&[of]);
+        assert_eq!(found.verdict, Verdict::Fail);
+        assert!(found.clues.is_empty(), "{found:?}");
     }
 
     #[test]

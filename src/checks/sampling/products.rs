@@ -154,7 +154,7 @@ impl Products {
 
     pub(super) fn law(&self, pdf: ClaimedPdf) -> Option<Law> {
         if self.error_of_share(0.5) > 0.99 && self.values.iter().all(|(value, _)| *value < 0.01) {
-            return Some(Law::Line);
+            return self.winds_around().then_some(Law::Line);
         }
         let over_sine =
             |(value, cosine): &(f64, f64)| (value / (1.0 - cosine * cosine).sqrt(), *cosine);
@@ -163,6 +163,13 @@ impl Products {
             Some(product) => pdf.law_of_product(product, self.leaves_azimuths_out),
             None => pdf.law_of_angle(Form::of(&by_angle)?),
         }
+    }
+
+    /// Whether heights and azimuths both vary, as along a spiral: a line that keeps one of them is another mistake.
+    fn winds_around(&self) -> bool {
+        let cosines = || self.values.iter().map(|(_, cosine)| *cosine);
+        let heights = cosines().fold(-1.0, f64::max) - cosines().fold(1.0, f64::min);
+        heights > 0.5 && !self.leaves_azimuths_out
     }
 
     /// The product as a constant, as a constant times a power of the cosine, or by its range.

@@ -112,6 +112,21 @@ mod tests {
     }
 
     #[test]
+    fn a_line_is_of_one_number_where_heights_and_azimuths_vary() {
+        let cause = |map: fn(DVec2) -> Option<DVec3>| {
+            let finding = found(map, cosine_pdf);
+            failure(&finding);
+            finding.clues.first().map(|clue| clue.cause.clone())
+        };
+        let twice = cause(|p| Some(at_height((1.0 - p.x).sqrt(), TAU * p.x)));
+        assert_eq!(twice.as_deref(), Some("one-number-twice"));
+        let azimuth_kept = cause(|p| Some(at_height((1.0 - p.x).sqrt(), 1.0)));
+        assert_ne!(azimuth_kept, twice);
+        let height_kept = cause(|p| Some(at_height(0.7, TAU * p.y)));
+        assert_ne!(height_kept, twice);
+    }
+
+    #[test]
     fn half_of_the_azimuths_is_a_factor_of_one_half() {
         let half = |p: DVec2| Some(at_height((1.0 - p.x).sqrt(), 0.5 * TAU * p.y));
         assert_named(named(half, cosine_pdf), "is 1/2 instead of 1", "half-of-azimuths");

@@ -15,6 +15,9 @@ const NEARLY: f64 = 0.03;
 /// The same where light is known without noise: roundings and quadratures alone differ.
 const EXACTLY: f64 = 0.01;
 
+/// What explains less than one of so many wrong answers explains hardly anything.
+const HARDLY: usize = 4;
+
 /// How the numbers of a core compare with those of a planted mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Likeness {
@@ -141,6 +144,22 @@ pub(super) fn breaks_otherwise(core: &Finding, planted: &Finding) -> bool {
     breaks && has_numbers(planted) && of_core.is_disjoint(&of_planted)
 }
 
+/// Whether what is planted explains hardly anything of what is wrong, of answers of single functions, which are known without
+/// noise: one more mistake in the same lines adds some wrong answers, and hardly takes any away.
+pub(super) fn hardly_explains(planted: &Finding, core: &Finding) -> bool {
+    let is_known = |measure: &Measure| {
+        measure.channel.is_none() && measure.interval.is_none() && measure.hypothesis.is_none()
+    };
+    let pair = |of_core| {
+        let is_same = |other: &&Measure| asks_the_same(of_core, other);
+        Some((of_core, planted.measures.iter().find(is_same)?))
+    };
+    let known = core.measures.iter().filter(|one| is_known(one)).filter_map(pair);
+    let wrong: Vec<_> = known.filter(|(core, other)| core.failed() || other.failed()).collect();
+    let explained = wrong.iter().filter(|(core, other)| errs_as_much(core, other)).count();
+    planted.failed() && HARDLY * explained < wrong.len()
+}
+
 /// Of what failed without a number: nothing is known of its size.
 fn by_verdict(planted: &Finding) -> Likeness {
     if planted.failed() { Likeness::Unsized } else { Likeness::Other }
@@ -243,6 +262,24 @@ mod tests {
         assert_eq!(likeness(Some(&half()), &lost), Likeness::Same);
         let nameless = Finding { clues: Vec::new(), ..moved_on };
         assert_eq!(likeness(Some(&nameless), &swapped), Likeness::Same);
+    }
+
+    #[test]
+    fn one_more_mistake_leaves_the_wrong_answers_of_another() {
+        let answers = |wrong: &[usize]| {
+            let hits = |ray: usize| {
+                let measured = f64::from(u8::from(!wrong.contains(&ray)));
+                Measure::exact("hits", measured, 1.0, 0.0).of_row(format!("ray {ray}"))
+            };
+            means((0..12).map(hits).collect())
+        };
+        let planted = answers(&[1, 2]);
+        assert!(hardly_explains(&planted, &answers(&[2, 3, 4, 5, 6])));
+        assert!(hardly_explains(&planted, &answers(&[1, 2, 3, 4, 5, 6, 7, 8, 9])));
+        assert!(!hardly_explains(&planted, &answers(&[1, 2, 3, 4, 5, 6])));
+        assert!(!hardly_explains(&answers(&[]), &planted), "it gets nothing wrong");
+        let lit = |by: f64| means(vec![mean("a", Channel::Red, 0.5, by, 0.01)]);
+        assert!(!hardly_explains(&lit(2.0), &lit(1.0)), "light may be made up for");
     }
 
     #[test]

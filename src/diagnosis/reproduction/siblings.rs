@@ -2,7 +2,7 @@
 //! explains them; where it fails what the core passes, or fails it otherwise, something else is wrong.
 
 use super::doubts::{all_of, refuted};
-use super::likeness::{Likeness, breaks_otherwise, likeness};
+use super::likeness::{Likeness, breaks_otherwise, hardly_explains, likeness};
 use super::{CASES, Mistake, Proof, Refuted, is_of_one_part, quickest};
 use crate::cause;
 use crate::checks::Finding;
@@ -108,7 +108,7 @@ impl<'a> Proof<'a> {
 
     /// Likenesses that are none in the cases that were written for their mistakes: the core fails those otherwise. So are
     /// names where another name explains such a case, or where the core breaks the contract in it and nothing that is told
-    /// does.
+    /// does, or where their mistakes explain hardly any of its wrong answers.
     pub(super) fn unlike_in_their_own(&self, ranked: &Ranked) -> Refuted {
         let all: Vec<_> = ranked.with_cause().filter_map(|told| self.likeliest(told)).collect();
         let named: Vec<_> =
@@ -122,9 +122,11 @@ impl<'a> Proof<'a> {
             };
             let is_unlike = |seen: &Observation<'_>, planted: &Finding| {
                 let is_other = likeness(seen.finding, planted) == Likeness::Other;
-                let breaks = || seen.finding.is_some_and(|core| breaks_otherwise(core, planted));
+                let is_against = |core: &Finding| {
+                    breaks_otherwise(core, planted) || hardly_explains(planted, core)
+                };
                 let may_be_other = is_likeness || !is_needed && has_a_name(seen);
-                may_be_other && is_other || !is_needed && breaks()
+                may_be_other && is_other || !is_needed && seen.finding.is_some_and(is_against)
             };
             let mut mistakes = self.of(headline).peekable();
             mistakes.peek().is_some()
